@@ -53,6 +53,43 @@ TEST(Bounds, areOfTheTransformedInstances)
     EXPECT_TRUE(bounds(Scene{}).empty());
 }
 
+// A scene whose only mesh has the second of two materials, of one image each.
+Scene twoMaterials(const char* name)
+{
+    Scene scene;
+    scene.images.resize(2);
+    scene.images[1].name = name;
+    scene.materials.resize(2);
+    scene.materials[1].copyOf = 0;
+    scene.materials[1].normalMap.image = scene.materials[1].heightMap.map.image = 1;
+    scene.meshes = {sharedCube()};
+    scene.meshes[0].material = 1;
+    scene.instances.push_back({name, 0, glm::mat4(1)});
+    scene.warnings = {name};
+    return scene;
+}
+
+TEST(AppendScene, keepsWhatEachIndexMeans)
+{
+    Scene scene = twoMaterials("a");
+    appendScene(scene, twoMaterials("b"));
+    appendScene(scene, Scene{});
+    ASSERT_EQ(scene.images.size(), 4u);
+    ASSERT_EQ(scene.materials.size(), 4u);
+    ASSERT_EQ(scene.instances.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Instance& instance = scene.instances[i];
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        const Material& material = scene.materials[std::size_t(mesh.material)];
+        EXPECT_EQ(scene.images[std::size_t(material.normalMap.image)].name, instance.name);
+        EXPECT_EQ(scene.images[std::size_t(material.heightMap.map.image)].name, instance.name);
+        EXPECT_EQ(material.copyOf, mesh.material - 1);
+        EXPECT_FALSE(material.baseColorMap.present());
+        EXPECT_EQ(scene.warnings[i], instance.name);
+    }
+    EXPECT_EQ(scene.materials[2].copyOf, -1);
+}
+
 // Points on the unit sphere, including its poles on all axes.
 Mesh pointsOnASphere(int count)
 {

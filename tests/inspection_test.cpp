@@ -65,7 +65,7 @@ TEST(Inspection, everyNameIsKnownAndNoOther)
 {
     for (std::size_t i = 0; i < inspectionNames().size(); ++i)
         EXPECT_EQ(inspectionFromName(inspectionNames()[i]), Inspection(i));
-    EXPECT_EQ(inspectionNames().back(), "emissive");
+    EXPECT_EQ(inspectionNames().back(), "mask");
     EXPECT_FALSE(inspectionFromName("shaded"));
 }
 

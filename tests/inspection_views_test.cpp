@@ -87,6 +87,10 @@ TEST(InspectionViews, eachReadsItsOwnMapAndChannel)
     expectDisplayed(scene, Inspection::metallic, grey(141));
     expectDisplayed(scene, Inspection::occlusion, grey(161));
     expectDisplayed(scene, Inspection::emissive, {201, 211, 221});
+    m.baseColor = {0.5f, 0.5f, 0.5f, 0.2f};
+    expectDisplayed(scene, Inspection::mask, {41, 51, 61}); // without the factor
+    EXPECT_EQ(inspected(scene, Inspection::mask).materials[0].baseColorMap.sampler.magnify, Filter::nearest);
+    EXPECT_EQ(inspected(scene, Inspection::baseColor).materials[0].baseColorMap.sampler.magnify, Filter::linear);
 }
 
 TEST(InspectionViews, withoutAMapTheFactorIsShownAsStored)
@@ -109,6 +113,7 @@ TEST(InspectionViews, withoutAMapTheFactorIsShownAsStored)
     expectDisplayed(scene, Inspection::emissive, {srgb(0.5), 255, 0});
     expectDisplayed(scene, Inspection::occlusion, glm::ivec3(255));
     expectDisplayed(scene, Inspection::normalMap, {128, 128, 255});
+    expectDisplayed(scene, Inspection::mask, glm::ivec3(128));
 }
 
 // 8 x 8 squares, alternately light and dark; the first row is the least saturated.

@@ -35,7 +35,7 @@ SHADER = "shader --lang glsl --frame cotangent"
 # a converted one is kept. A flag has no words.
 CASES = [
     (RENDER, {
-        "--size": "40x30 | thumbnail", "--view": "~shaded | *", "--up": "~y | *", "--exposure": "~auto | 0.3 | 2",
+        "--size": "40x30 | thumbnail", "--view": "~shaded | !mask | *", "--up": "~y | *", "--exposure": "~auto | 0.3 | 2",
         "--camera": "~front | left | right | top | bottom | back | fit | 0 | 1 | orbit:40,20 | 1,2,4,0,0.2,0 | 1,2,4,0,0.2,0,20 | 1,2,4,0,0.2,0,h3",
         "--normal-map": "as-directx.png | rough.png", "--base-color": "rocks.png | rough.png", "--metallic-roughness": "rocks.png | mask.png",
         "--occlusion": "rocks.png | mask.png", "--height-map": "height.png | mask.png", "--variant": "cloth | sign", "--turntable": "2 | 3", "--environment": "~studio | sky.hdr | *",
@@ -45,6 +45,7 @@ CASES = [
         "--threads": "=1 | =3", "--list-frames": ""}),
     (RENDER + " --normal-map rocks.png", {"--convention": "~gltf,exact | gltf | directx | slope", "--material": "~-1 | 0 | 1"}),
     (RENDER + " --height-map height.png", {"--height-depth": "0.05 | 0.2", "--material": "~-1 | 0 | 1"}),
+    (RENDER + " --view mask --mask mask.png", {"--mask": "rocks.png | rough.png", "--material": "~-1 | 0 | 1"}),
     (RENDER + " --animation turn --time 0.6", {"--animation": "bend | ~0 | ~turn", "--time": "0.2 | 0.9 | ~0.6"}),
     (RENDER + " --animation turn", {"--frames": "0..1 | 1..3 | 0..3"}),
     (WITH_GROUND, {"--ground": "~on | *"}),

@@ -20,9 +20,9 @@ SKIPPED = 77
 # name themselves. All options of --help that name files are here: those not in READS name outputs.
 CASES = [
     "view panel.gltf --normal-map grain.png --base-color colors.png --metallic-roughness rough.png --occlusion mask.png "
-    "--height-map height.png --environment studio --size 64x48 --samples 1 --device reference --play session.txt --record out.txt --json out.json",
+    "--height-map height.png --view mask --mask rocks.png --high high.obj --environment studio --size 64x48 --samples 1 --device reference --play session.txt --record out.txt --json out.json",
     "render panel.gltf --normal-map grain.png --base-color colors.png --metallic-roughness rough.png --occlusion mask.png "
-    "--height-map height.png --size 16x12 --samples 1 --device reference -o out.png --json out.json",
+    "--height-map height.png --view mask --mask rocks.png --size 16x12 --samples 1 --device reference -o out.png --json out.json",
     "render --shape plane --environment sky.hdr --size 16x12 --samples 1 --device reference -o out.png --json out.json",
     "render painted.obj --size 16x12 --samples 1 --device reference -o out.exr --json out.json",
     "render panel.gltf --size 16x12 --samples 1 --device reference --turntable 3 -o out.gif",
@@ -56,7 +56,7 @@ CASES = [
 ]
 READS = {"--normal-map", "--base-color", "--metallic-roughness", "--occlusion", "--height-map", "--environment", "--play", "--mesh", "--high", "--low",
          "--high-map", "--cage", "--cards", "--against"}
-MASKS_READ = {("map blend", "--mask"), ("map diff", "--mask")}  # the option is written by `bake`
+MASKS_READ = {("map blend", "--mask"), ("map diff", "--mask"), ("render", "--mask"), ("view", "--mask")}  # the option is written by `bake`
 GROUPS = {"look": ["view", "render", "compare", "lint"], "map": ["map"], "make": ["bake", "convert", "tangents", "shader"],
           "others": ["accuracy", "figures", "cost", "batch", "help"]}
 NO_FILES = {"help"}

@@ -49,12 +49,15 @@ glm::vec3 normalInTheMiddle(const std::filesystem::path& file)
     return glm::vec3(c[0], c[1], c[2]) / 127.5f - 1.0f;
 }
 
-const std::vector<std::string> kView = {"--size",   "64x64",     "--view",  "normal", "--camera", "0.5,0.5,2,0.5,0.5,0",
-                                        "--device", "reference", "--quiet", "-o",     "n.png"};
+const std::vector<std::string> kView = {"--size",  "64x64", "--camera", "0.5,0.5,2,0.5,0.5,0", "--device", "reference",
+                                        "--quiet", "-o",    "n.png"};
 
 std::vector<std::string> drawn(std::vector<std::string> words)
 {
+    const bool views = std::find(words.begin(), words.end(), "--view") != words.end();
     words.insert(words.end(), kView.begin(), kView.end());
+    if (!views)
+        words.insert(words.end(), {"--view", "normal"});
     return words;
 }
 
@@ -139,6 +142,10 @@ TEST(OwnMaps, errorsAreOneLine)
         {{"render", "square.obj", "--height-map", "map.png", "--height-depth", "-1"}, 1, "found '-1'"},
         {{"render", "square.obj", "--height-map", "map.png", "--height-depth", "nan"}, 1, "found 'nan'"},
         {{"render", "square.obj", "--height-map", "map.png", "--height-depth", "deep"}, 1, "found 'deep'"},
+        {{"render", "square.obj", "--view", "mask", "--mask", "text.png"}, 2, "text.png"},
+        {{"render", "square.obj", "--view", "mask", "--mask", "none.png"}, 2, "none.png"},
+        {{"render", "bare.obj", "--view", "mask", "--mask", "map.png"}, 2, "expected a mesh with texture coordinates"},
+        {{"render", "square.obj", "--view", "mask"}, 1, "--view mask: expected --mask FILE"},
         {{"render", "square.obj", "--height-depth", "0.1"}, 1, "--height-depth: expected --height-map"}};
     for (const auto& c : cases) {
         const ToolRun r = runTool(drawn(c.words), folder.path());

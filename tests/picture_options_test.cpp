@@ -362,7 +362,7 @@ TEST(PictureOptionValues, libraryAcceptsAndRefusesLikeTheCommandLine)
         for (const std::string& word : words)
             EXPECT_EQ(libraryMessage({name, word}), commandLineMessage({name, word})) << name << " " << word;
     }
-    EXPECT_EQ(options, 36u);
+    EXPECT_EQ(options, 37u);
 }
 
 TEST(PictureOptionValues, libraryReadsTheSameValues)

@@ -168,7 +168,7 @@ TEST(ViewWindow, theReportSaysHowASessionEnded)
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
     const std::string quitInAMenu = "0 do scale 1\n0 wait\n0 move 20 10\n0 press left\n0 release left\n0 wait\n" // File
-                                    "0 move 25 253\n0 press left\n0 release left\n0 wait\n"; // its last entry
+                                    "0 move 25 270\n0 press left\n0 release left\n0 wait\n"; // its last entry
     for (const auto& [session, by] : std::vector<std::pair<std::string, std::string>>{{"0 wait\n", "last event"},
                                                                                       {quitInAMenu, "menu"},
                                                                                       {"0 key ctrl+q\n", "key"},

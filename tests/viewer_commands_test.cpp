@@ -110,6 +110,7 @@ TEST(ViewerCommands, eachSettingRequestsItsLoadPoseOrMetering)
                                                        {"time", "1"},
                                                        {"height-map", "h m.png"},
                                                        {"height-depth", "0.1"},
+                                                       {"mask", "m.png"},
                                                        {"environment-rotation", "20"},
                                                        {"environment-intensity", "2"},
                                                        {"shadow-softness", "5"}};

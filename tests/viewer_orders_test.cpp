@@ -50,7 +50,8 @@ TEST(ViewerOrders, haveEachFieldOfTheState)
     Order order = orderOf(s);
     EXPECT_EQ(order.a, s.a);
     EXPECT_EQ(order.b, s.b);
-    EXPECT_EQ(order.show, "uv");
+    EXPECT_EQ(order.first.show, "uv");
+    EXPECT_EQ(order.second.show, "uv");
     EXPECT_EQ(order.compare, Compare::flip);
     EXPECT_TRUE(order.flipped);
     EXPECT_EQ(order.model, s.model);

@@ -117,14 +117,18 @@ void addFrameOption(Arguments& a, std::string& frame)
     addListOfFrames(a);
 }
 
-void addShowOption(Arguments& a, PictureOptions& o) { add(a, o, *findPictureOption("view")); }
+void addShowOption(Arguments& a, PictureOptions& o)
+{
+    for (const char* name : {"view", "mask"})
+        add(a, o, *findPictureOption(name));
+}
 
 void addPictureOptions(Arguments& a, PictureOptions& o)
 {
     a.group(HelpGroup::input);
     a.option("MODEL", o.model, modelFormats() + " file; the built-in scene if left out").reads();
     for (const PictureOption& option : pictureOptions())
-        if (option.name != "view")
+        if (option.name != "view" && option.name != "mask")
             add(a, o, option);
     for (const auto& [removed, why] : removedPictureOptions()) {
         const std::string name = fmt::format("--{}", removed);

@@ -36,10 +36,10 @@ void addFrameOption(Arguments& a, std::string& frame);
 // Adds --max-degrees, the limit of chooseFrames.
 void addMaxDegreesOption(Arguments& a, double& degrees);
 
-// Adds --view.
+// Adds --view, and --mask for it.
 void addShowOption(Arguments& a, PictureOptions& options);
 
-// Adds the model and all options of the table but --view.
+// Adds the model and all other options of the table.
 void addPictureOptions(Arguments& a, PictureOptions& options);
 
 } // namespace cotan::app

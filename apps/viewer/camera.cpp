@@ -74,6 +74,17 @@ void orbit(Camera& camera, float right, float upward)
     change(camera, to);
 }
 
+void turnAbout(Camera& camera, const glm::vec3& point, float right)
+{
+    const float c = std::cos(right), s = std::sin(right);
+    const auto turned = [&](const glm::vec3& v) { return glm::vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x); };
+    Camera to = camera;
+    to.eye = point + turned(camera.eye - point);
+    to.target = point + turned(camera.target - point);
+    to.up = turned(camera.up);
+    change(camera, to);
+}
+
 void pan(Camera& camera, glm::vec2 delta, glm::ivec2 size)
 {
     const Axes axes = axesOf(camera);

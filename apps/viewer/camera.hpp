@@ -13,6 +13,9 @@ namespace cotan::viewer {
 // Orbits around the pivot, in radians: right about the vertical, and up to almost straight up or down.
 void orbit(Camera& camera, float right, float upward);
 
+// Turns eye, pivot and up about the vertical through `point`, in radians, as `orbit` turns right.
+void turnAbout(Camera& camera, const glm::vec3& point, float right);
+
 // Moves eye and pivot parallel to the view plane, so that points at the pivot's depth follow the pointer. delta:
 // pointer motion in pixels, y downwards; size: of the image.
 void pan(Camera& camera, glm::vec2 delta, glm::ivec2 size);

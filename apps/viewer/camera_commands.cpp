@@ -5,6 +5,7 @@
 #include "command_words.hpp"
 #include "core/try.hpp"
 #include "cotan/render.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::viewer {
 
@@ -28,6 +29,18 @@ Status afterCameraMove(State& state)
         state.pinnedAt = azimuth;
     }
     return Done{};
+}
+
+// Turns the model counter-clockwise, seen from above: the camera goes the other way about the middle of the model.
+Status turnModel(State& state, Words& words)
+{
+    COTAN_TRY(degrees, words.number("turn"));
+    if (!state.model || state.model->box.empty())
+        return expected("turn", "a model", "none");
+    const Scene& scene = state.model->scene;
+    const Bounds box = scene.reach.empty() ? state.model->box : framedBounds(scene); // does not move with an animation
+    turnAbout(state.camera, box.centre(), -*degrees * kRadians);
+    return afterCameraMove(state);
 }
 
 Status setCamera(State& state, const std::string& words)
@@ -124,6 +137,8 @@ std::optional<Status> performCamera(State& state, const std::string& command, Wo
         return setCamera(state, words.rest);
     if (command == "hot-spot")
         return goToProblemArea(state, words);
+    if (command == "turn")
+        return turnModel(state, words);
     if (command == "turn-light") {
         COTAN_TRY(degrees, words.number("turn-light"));
         rotateLight(state.picture, double(*degrees));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bake/name_pairs.hpp"
 #include "command_words.hpp"
 #include "core/try.hpp"
 #include "cotan/convention.hpp"
@@ -18,6 +19,15 @@
 namespace cotan::viewer {
 
 namespace {
+
+Status openHigh(State& state, const std::string& file)
+{
+    if (file.empty())
+        closeHigh(state);
+    else
+        state.requests.push_back(request::LoadHigh{{file}});
+    return Done{};
+}
 
 Status openFile(State& state, const std::string& file)
 {
@@ -43,6 +53,18 @@ Status openFile(State& state, const std::string& file)
     return Done{};
 }
 
+// Opens a file that a folder or the clipboard hands over. Detail that by its name belongs to the open model is shown
+// beside it.
+Status dropFile(State& state, const std::string& file)
+{
+    const std::string model = std::filesystem::path(state.picture.model).stem().string();
+    const std::string other = std::filesystem::path(file).stem().string();
+    if (!isModel(file) || model.empty() || roleOfName(other) != NameRole::high || roleOfName(model) == NameRole::high)
+        return openFile(state, file);
+    const NamePairs pairs = pairNames({model}, {other});
+    return pairs.low[0] >= 0 && pairs.low[0] == pairs.high[0] ? openHigh(state, file) : openFile(state, file);
+}
+
 Status neighbour(State& state, int step)
 {
     const std::string file = neighbourOf(state.picture.model, step);
@@ -56,6 +78,7 @@ Status setFrame(Side& side, const std::string& name)
     if (const auto frame = parseFrameChoice(name); !frame)
         return frame.error();
     side.frame = name;
+    side.high = false;
     return Done{};
 }
 
@@ -75,8 +98,12 @@ Status setSide(Side& side, const std::string& what, const std::string& value)
             if (const auto known = parseConvention(value); !known)
                 return known.error();
         side.convention = value;
+    } else if (what == "high") {
+        if (value != "on" && value != "off")
+            return expected("second high", "on or off", value);
+        side.high = value == "on";
     } else {
-        return expected("second", "frame, tangents, normal-map or convention", what);
+        return expected("second", "frame, tangents, normal-map, convention or high", what);
     }
     return Done{};
 }
@@ -91,6 +118,7 @@ Status toggle(State& state, const std::string& name)
                                                            {"statistics", &State::statisticsShown},
                                                            {"look", &State::dark},
                                                            {"loop", &State::loops},
+                                                           {"turntable", &State::turning},
                                                            {"pin-light", &State::lightPinned}};
     const auto known = switches.find(name);
     if (known != switches.end()) {
@@ -186,6 +214,8 @@ Status show(State& state, const std::string& name)
 {
     if (std::ranges::find(showNames(), name) == showNames().end())
         return expected("show", fmt::format("one of {}", fmt::join(showNames(), ", ")), name);
+    if (name == "mask" && state.picture.maps.mask.empty())
+        return expected("show mask", "a mask of bake (set mask FILE)", "none");
     state.show = name;
     return Done{};
 }
@@ -203,6 +233,8 @@ Status performSet(State& state, Words& words)
         state.meteredFrom = state.cameraMoved ? formatCamera(state.camera) : "";
     if (name == "animation")
         state.picture.time = 0;
+    if (name == "mask")
+        state.show = state.picture.maps.mask.empty() ? "shaded" : "mask";
     if (state.picture.animation.empty())
         state.playing = false;
     if (setting->after == Setting::After::loading)
@@ -241,7 +273,8 @@ const std::map<std::string, Perform>& commandTable()
     static const Perform open = [](State& s, Words& w) { return openFile(s, w.rest); };
     static const std::map<std::string, Perform> all = {
         {"open", open},
-        {"drop", open},
+        {"drop", [](State& s, Words& w) { return dropFile(s, w.rest); }},
+        {"high", [](State& s, Words& w) { return openHigh(s, w.rest); }},
         {"reload",
          [](State& s, Words&) {
              s.requests.push_back(request::Load{s.picture.model});
@@ -250,7 +283,11 @@ const std::map<std::string, Perform>& commandTable()
         {"next", [](State& s, Words&) { return neighbour(s, 1); }},
         {"previous", [](State& s, Words&) { return neighbour(s, -1); }},
         {"paste", requested<request::Paste>},
-        {"choose", requested<request::ChooseFile>},
+        {"choose",
+         [](State& s, Words& w) {
+             s.requests.push_back(request::ChooseFile{w.rest.empty() ? "open" : w.rest});
+             return Status(Done{});
+         }},
         {"find-hot-spots", requested<request::FindProblemAreas>},
         {"lose-surface", requested<request::LoseSurface>},
         {"quit", requested<request::Quit>},
@@ -263,6 +300,8 @@ const std::map<std::string, Perform>& commandTable()
         {"second",
          [](State& s, Words& w) {
              const std::string what = w.next();
+             if (what == "high" && !s.highModel)
+                 return expected("second high", "a high model (high FILE)", "none");
              return setSide(s.b, what, w.rest);
          }},
         {"swap",

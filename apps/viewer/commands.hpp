@@ -14,12 +14,13 @@ namespace cotan::viewer {
 // Performs the command in `line`. Anything slower than a change of the state becomes a request. Errors:
 // ErrorKind::usage, with what was expected and found; the state stays unchanged.
 //
-//   open FILE | drop FILE | reload | next | previous | normal-map FILE | orthographic | reset
+//   open FILE | drop FILE | high [FILE] | reload | next | previous | normal-map FILE | orthographic | reset
 //   frame NAME | show NAME | set OPTION VALUE | camera front|fit|N|WORDS | see front|back|left|right|top|bottom
-//   orbit X Y, look X Y (degrees) | pan X Y (pixels) | zoom FACTOR | fly X Y Z | turn-light DEGREES
-//   compare off|divider|flip|angle | flip | divider FRACTION | second frame|tangents|normal-map|convention VALUE | swap
-//   tangents NAME | convention WORDS | toggle NAME | scale X | size W H | play | picture [FILE [W H]] | window FILE
-//   report FILE | copy command|camera | paste | choose | find-hot-spots | hot-spot N | lose-surface | quit
+//   orbit X Y, look X Y (degrees) | pan X Y (pixels) | zoom FACTOR | fly X Y Z | turn, turn-light DEGREES
+//   compare off|divider|flip|angle | flip | divider FRACTION | second frame|tangents|normal-map|convention|high VALUE |
+//   swap tangents NAME | convention WORDS | toggle NAME | scale X | size W H | play | picture [FILE [W H]] | window
+//   FILE report FILE | copy command|camera | paste | choose [COMMAND] | find-hot-spots | hot-spot N | lose-surface |
+//   quit
 Status perform(State& state, const std::string& line);
 
 // A command offered by a menu, by a key, or by both.
@@ -34,6 +35,9 @@ inline constexpr std::size_t kMaxLines = 17;
 
 // In menu order.
 std::vector<Entry> entriesOf(const State& state);
+
+// "high: statue_high.obj", with the number of further files.
+std::string highName(const State& state);
 
 // Formats a key as it is labelled on keyboards: "Ctrl+O" for "ctrl+o", "Num 1" for "kp1".
 std::string keyLabel(const std::string& key);

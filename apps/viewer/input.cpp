@@ -18,6 +18,7 @@ constexpr float kClick = 4;             // maximum pointer motion of a click, pi
 constexpr float kDegreesAPixel = 0.35f; // of rotation
 constexpr float kGrip = 8;              // pixels beside the divider that grab it
 constexpr const char* kFlyKeys = "wasdqe";
+constexpr double kTurntable = 24; // degrees per second
 
 void run(State& state, const std::string& command)
 {
@@ -41,6 +42,7 @@ void drag(State& state, glm::vec2 delta)
         state.divider = std::clamp(state.pointer.x / float(std::max(1, state.size.x)), 0.0f, 1.0f);
         return;
     }
+    state.turning = false;
     if (button == "left" && holds(held, "shift"))
         run(state, fmt::format("turn-light {}", delta.x * kDegreesAPixel));
     else if (flying(state))
@@ -149,6 +151,8 @@ void advance(State& state, double seconds)
         state.cameraMoved = true;
         state.moving = true;
     }
+    if (state.turning && seconds > 0)
+        (void)perform(state, fmt::format("turn {}", seconds * kTurntable)); // nothing to turn is no error
     if (state.playing && seconds > 0)
         playOn(state, seconds);
 }

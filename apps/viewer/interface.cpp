@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "bake/bake_surfaces.hpp"
 #include "camera.hpp"
 #include "commands.hpp"
 #include "core/real_number.hpp"
@@ -21,9 +22,12 @@ namespace {
 
 std::string degrees(double value) { return fmt::format("{:.2f}\xc2\xb0", value); }
 
-// The frame's name; for "auto", followed by the frame chosen for the model's own maps.
-std::string frameLabel(const State& s, const Side& side)
+// The name of a side's frame; for "auto", followed by the frame chosen for the model's own maps.
+std::string frameLabel(const State& s, bool second)
 {
+    const Side side = sideOf(s, second);
+    if (side.high)
+        return highName(s);
     if (side.frame != kAutoFrame || !s.model || !side.normalMap.empty())
         return side.frame;
     const auto frame = chosenFrame({}, s.picture, s.model->scene);
@@ -38,10 +42,9 @@ std::string statusOf(const State& s)
                                                 : "built-in scene";
     if (s.model)
         text += fmt::format("   {} triangles", trianglesDrawn(s.model->scene));
-    const Side& side = sideOf(s, s.compare == Compare::flip && s.second);
-    text += "   " + s.show + ", " + frameLabel(s, side);
+    text += "   " + s.show + ", " + frameLabel(s, s.compare == Compare::flip && s.second);
     if (s.compare == Compare::divider || s.compare == Compare::angle)
-        text += (s.compare == Compare::angle ? " against " : " | ") + frameLabel(s, s.b);
+        text += (s.compare == Compare::angle ? " against " : " | ") + frameLabel(s, true);
     if (s.statisticsShown && !s.statisticsOf.empty())
         text += s.statistics.count > 0
             ? fmt::format("   {}: mean {}, 95 % {}, max {}", s.statisticsOf, degrees(s.statistics.mean),
@@ -205,6 +208,9 @@ Interface interfaceOf(const State& s)
     }
     if (s.interfaceShown && (s.compare == Compare::angle || s.show == "error" || s.show == "shear"))
         i.scaleBar = scaleOfDegrees();
+    if (s.interfaceShown && s.show == "mask" && s.compare != Compare::angle)
+        for (const MaskColor& c : maskColors())
+            i.legend.emplace_back(c.meaning, c.color);
     if (s.problemAreas && s.problemArea && s.interfaceShown && !s.playing) // an animation moves away from the triangle
         addOutline(s, i.lines);
     if (s.problemAreas)
@@ -212,8 +218,8 @@ Interface interfaceOf(const State& s)
             i.problemAreas.push_back({(*s.problemAreas)[k].text, fmt::format("hot-spot {}", k)});
     if (s.compare == Compare::divider && s.interfaceShown) {
         i.divider = s.divider * float(s.size.x);
-        i.leftName = frameLabel(s, s.a);
-        i.rightName = frameLabel(s, s.b);
+        i.leftName = frameLabel(s, false);
+        i.rightName = frameLabel(s, true);
     }
     return i;
 }

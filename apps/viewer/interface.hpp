@@ -57,7 +57,8 @@ struct Interface {
     std::vector<Line2D> lines;
     float divider = -1; // pixels from the left; negative: none
     std::string leftName, rightName;
-    std::vector<std::pair<double, glm::vec3>> scaleBar; // degrees and their colours
+    std::vector<std::pair<double, glm::vec3>> scaleBar;    // degrees and their colours
+    std::vector<std::pair<std::string, glm::vec3>> legend; // of other colours
     bool problemAreasShown = false;
     std::vector<Choice> problemAreas;
     std::vector<std::pair<std::string, std::string>> sheet; // key, and action with its value; titles have no key

@@ -45,6 +45,36 @@ Loaded readModel(const PictureOptions& options, std::uint64_t number, LastRead& 
     return loaded;
 }
 
+// Files of a detailed model, and the options that its limits come from.
+struct HighFiles {
+    PictureOptions options;
+    std::vector<std::string> files;
+};
+
+Loaded readHighModel(const HighFiles& wanted, std::uint64_t number)
+{
+    Loaded loaded;
+    auto model = std::make_shared<Model>();
+    for (const std::string& file : wanted.files) {
+        PictureOptions o;
+        o.model = file;
+        o.up = wanted.options.up;
+        o.memory = wanted.options.memory;
+        o.maxDegrees = wanted.options.maxDegrees;
+        auto scene = openModel(o);
+        if (!scene) {
+            loaded.error = app::withOptionNames(scene.error());
+            return loaded;
+        }
+        chooseFramesOfMeshes(o, *scene);
+        appendScene(model->scene, std::move(*scene));
+    }
+    model->box = bounds(model->scene);
+    model->number = number;
+    loaded.model = std::move(model);
+    return loaded;
+}
+
 Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& kept)
 {
     Loaded loaded;
@@ -71,6 +101,27 @@ Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& ke
     kept.model = model;
     loaded.model = std::move(model);
     return loaded;
+}
+
+// Shows the detailed model that was read, beside the model if only that is shown. A file that has changed changes no
+// comparison. After an error the previous one stays.
+void takeHigh(State& state, const Loaded& loaded)
+{
+    if (loaded.error) {
+        state.problem = loaded.error->message;
+        return;
+    }
+    const bool again = state.highModel && loaded.high == state.high;
+    state.high = loaded.high;
+    state.highModel = loaded.model;
+    state.statisticsOf.clear();
+    if (!again) {
+        state.a.high = false;
+        state.b.high = true;
+        state.compare = state.compare == Compare::off ? Compare::divider : state.compare;
+    }
+    if (!loaded.model->scene.warnings.empty())
+        state.message = loaded.model->scene.warnings[0];
 }
 
 // Resets options that could not be satisfied to those of the current model.
@@ -112,6 +163,8 @@ void take(State& state, const Loaded& loaded)
         state.message = loaded.faults[0]; // all of them are printed
         return;
     }
+    if (!loaded.high.empty())
+        return takeHigh(state, loaded);
     if (loaded.error)
         return giveUp(state, loaded);
     if (!loaded.model)
@@ -123,8 +176,10 @@ void take(State& state, const Loaded& loaded)
         state.problem.clear();
     const bool other =
         !state.model || loaded.options.model != state.picture.model || loaded.options.shape != state.picture.shape;
-    if (other && state.model)
+    if (other && state.model) {
         state.playing = false;
+        closeHigh(state); // it is the detail of the previous model
+    }
     state.picture.model = loaded.options.model;
     state.picture.shape = loaded.options.shape;
     state.picture.variant = loaded.options.variant;
@@ -159,19 +214,25 @@ struct Loader::Work {
     {
         std::unique_lock lock(mutex);
         for (;;) {
-            changed.wait(lock, [&] { return stop || read || pose || look; });
+            changed.wait(lock, [&] { return stop || read || high || pose || look; });
             if (stop)
                 return;
             const auto toRead = std::exchange(read, std::nullopt);
-            const auto toPose = toRead ? std::nullopt : std::exchange(pose, std::nullopt);
-            const auto toLook = toRead || toPose ? nullptr : std::exchange(look, nullptr);
+            const auto toHigh = toRead ? std::nullopt : std::exchange(high, std::nullopt);
+            const bool reads = toRead || toHigh;
+            const auto toPose = reads ? std::nullopt : std::exchange(pose, std::nullopt);
+            const auto toLook = reads || toPose ? nullptr : std::exchange(look, nullptr);
             working = true;
             reading = toRead.has_value();
+            readingHigh = toHigh.has_value();
             lock.unlock();
             app::Stopwatch watch;
             Loaded loaded = toRead ? guarded([&] { return readModel(*toRead, ++number, kept); })
+                : toHigh           ? guarded([&] { return readHighModel(*toHigh, ++number); })
                 : toPose           ? guarded([&] { return poseKept(*toPose, ++number, kept); })
                                    : guarded([&] { return lookAt(*toLook); });
+            if (toHigh) // also after an exception
+                loaded.high = toHigh->files;
             loaded.seconds = watch.lap();
             const std::shared_ptr<const Model> fresh = toRead ? loaded.model : nullptr;
             give(lock, std::move(loaded));
@@ -186,8 +247,8 @@ struct Loader::Work {
     void give(std::unique_lock<std::mutex>& lock, Loaded loaded)
     {
         lock.lock();
-        working = reading = false;
-        if (!read) // otherwise this result is out of date
+        working = reading = readingHigh = false;
+        if (!read || !loaded.high.empty()) // otherwise this result is out of date
             ready.push_back(std::move(loaded));
         if (done)
             done();
@@ -226,11 +287,12 @@ struct Loader::Work {
     std::mutex mutex;
     std::condition_variable changed;
     std::optional<PictureOptions> read, pose;
+    std::optional<HighFiles> high;
     std::shared_ptr<const Model> look;
     std::deque<Loaded> ready;
     LastRead kept;            // used only by the thread
     std::uint64_t number = 0; // used only by the thread
-    bool working = false, reading = false, stop = false;
+    bool working = false, reading = false, readingHigh = false, stop = false;
     std::thread thread; // declared last, because it uses all other members
 };
 
@@ -254,6 +316,15 @@ void Loader::read(const PictureOptions& options)
         work_->read = options;
         work_->pose.reset();
         work_->look = nullptr;
+    }
+    work_->changed.notify_all();
+}
+
+void Loader::readHigh(const PictureOptions& options, const std::vector<std::string>& files)
+{
+    {
+        const std::lock_guard lock(work_->mutex);
+        work_->high = {options, files};
     }
     work_->changed.notify_all();
 }
@@ -291,13 +362,13 @@ std::optional<Loaded> Loader::take()
 bool Loader::busy() const
 {
     const std::lock_guard lock(work_->mutex);
-    return work_->read || work_->pose || work_->look || work_->working || !work_->ready.empty();
+    return work_->read || work_->high || work_->pose || work_->look || work_->working || !work_->ready.empty();
 }
 
 bool Loader::reading() const
 {
     const std::lock_guard lock(work_->mutex);
-    return work_->read || work_->reading;
+    return work_->read || work_->high || work_->reading || work_->readingHigh;
 }
 
 } // namespace cotan::viewer

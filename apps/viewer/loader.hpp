@@ -10,6 +10,7 @@
 namespace cotan::viewer {
 
 struct Loaded {
+    std::vector<std::string> high;      // files, if this is the detailed model
     bool posed = false;                 // the same model at another time of its animation
     PictureOptions options;             // options that the model was read with
     std::shared_ptr<const Model> model; // null if there is an error or another kind of result
@@ -30,6 +31,9 @@ public:
 
     // Reads this model next. Waiting requests are dropped; the result of a read in progress is discarded.
     void read(const PictureOptions& options);
+    // Reads a detailed model from these files, all into one scene, after the model. Replaces a waiting one. options:
+    // limits and axes, as for the model.
+    void readHigh(const PictureOptions& options, const std::vector<std::string>& files);
     // Poses the model that was read last, without reading its file or decoding its images again. Replaces a waiting
     // pose. Does nothing while a model is being read.
     void pose(const PictureOptions& options);

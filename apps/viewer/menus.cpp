@@ -76,6 +76,7 @@ void addFileEntries(Entries& e, const State& s)
 {
     e.menu("File");
     e.add("Open...", "ctrl+o", "choose");
+    e.add("Open high model...", "ctrl+shift+o", "choose high");
     e.add("Open copied path", "ctrl+v", "paste");
     e.add("Reload", "f5", "reload", false, !s.picture.model.empty());
     e.add("Next in folder", "pagedown", "next", false, !s.picture.model.empty());
@@ -110,6 +111,7 @@ void addCameraEntries(Entries& e, const State& s)
                                     {"ctrl+kp7", "bottom"}})
         e.add(fmt::format("{} view", capital(side)), key, fmt::format("see {}", side));
     e.add("Orthographic", "o", "orthographic", s.camera.orthographic);
+    e.add("Turntable", "t", "toggle turntable", s.turning);
     e.line();
     e.add("Zoom in", "=", "zoom 0.8");
     e.add("Zoom out", "-", "zoom 1.25");
@@ -137,7 +139,7 @@ void addFrameEntries(Entries& e, const State& s)
     }
     for (const bool second : {false, true}) {
         e.menu(second ? "Compare with" : "Frame");
-        const Side& side = sideOf(s, second);
+        const Side side = sideOf(s, second);
         const std::string before = second ? "second " : "";
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (i == kFirst.size())
@@ -146,7 +148,11 @@ void addFrameEntries(Entries& e, const State& s)
             e.add(names[i], key, before + "frame " + names[i], side.frame == names[i]);
         }
         e.submenu("");
-        e.add("auto: as the maps say", "", before + "frame auto", side.frame == kAutoFrame);
+        e.add("auto: as the maps say", "", before + "frame auto", side.frame == kAutoFrame && !side.high);
+        if (second && s.highModel) {
+            e.add(highName(s), "", side.high ? "second high off" : "second high on", side.high);
+            e.add("Close high model", "", "high ");
+        }
         e.submenu("Tangents");
         e.add("Tangents from file", "", before + "tangents stored", side.tangents == TangentOrigin::stored);
         e.add("Generated tangents", "", before + "tangents generated", side.tangents == TangentOrigin::generated);
@@ -179,11 +185,15 @@ void addShowEntries(Entries& e, const State& s)
 {
     e.menu("View");
     const std::vector<std::string>& names = showNames();
+    const bool masked = !s.picture.maps.mask.empty();
     addList(e, "Show", names.size(), [&](std::size_t i) {
-        e.add(names[i], i < 9 ? fmt::format("alt+{}", i + 1) : "", "show " + names[i], s.show == names[i]);
+        e.add(names[i], i < 9 ? fmt::format("alt+{}", i + 1) : "", "show " + names[i], s.show == names[i],
+              names[i] != "mask" || masked);
     });
-    const auto here = std::ranges::find(names, s.show) - names.begin();
-    e.add("Next view", "v", "show " + names[std::size_t(here + 1) % names.size()]);
+    auto next = std::size_t(std::ranges::find(names, s.show) - names.begin() + 1) % names.size();
+    next += names[next] == "mask" && !masked ? 1 : 0; // it is not the last one
+    e.add("Next view", "v", "show " + names[next]);
+    e.add("Open mask of a bake...", "", "choose set mask");
     e.line();
     e.flag("Normal maps", "n", "no-normal-maps", true);
     if (const std::string& heights = s.picture.maps.height; !heights.empty())
@@ -267,6 +277,12 @@ void addAnimationEntries(Entries& e, const State& s)
 }
 
 } // namespace
+
+std::string highName(const State& state)
+{
+    const std::size_t count = state.high.size();
+    return count == 0 ? "" : "high: " + fileName(state.high[0]) + (count > 1 ? fmt::format(" + {}", count - 1) : "");
+}
 
 std::vector<Entry> entriesOf(const State& state)
 {

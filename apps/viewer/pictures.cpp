@@ -25,8 +25,9 @@ std::string keyOf(const State& s)
         key += commandLine(other, "", s.size) + "\n";
     }
     return key
-        + fmt::format("{} {} {} {} {} {}", int(s.compare), s.second && s.compare == Compare::flip, s.show,
-                      s.moving || s.playing, s.statisticsShown, s.model ? s.model->number : 0);
+        + fmt::format("{} {} {} {} {} {} {}", int(s.compare), s.second && s.compare == Compare::flip, s.show,
+                      inMotion(s), s.statisticsShown, s.model ? s.model->number : 0,
+                      s.highModel ? s.highModel->number : 0);
 }
 
 } // namespace
@@ -66,7 +67,7 @@ void Pictures::receive(State& state, bool timed)
         // Redrawing the last valid state must not clear the error; a reload of the file may.
         if (state.loads != failedAtLoads_ && state.problem == std::exchange(state.drawProblem, {}))
             state.problem.clear();
-        lastGood_ = {true, state.picture, state.a, state.b};
+        lastGood_ = {true, state.picture, state.show, state.a, state.b};
     }
     if (drawn->picture && !(drawn->picture == drawn_.picture)) {
         firstSeconds_ = firstSeconds_ > 0 ? firstSeconds_ : drawn->seconds;
@@ -100,6 +101,7 @@ void Pictures::revert(State& state) const
     state.picture.animation = now.animation;
     state.picture.time = now.time;
     state.picture.camera = now.camera;
+    state.show = lastGood_.show;
     state.a = lastGood_.a;
     state.b = lastGood_.b;
 }

@@ -43,6 +43,7 @@ private:
     struct {
         bool any = false;
         PictureOptions picture;
+        std::string show;
         Side a, b;
     } lastGood_; // state of the last image that could be drawn
     struct {

@@ -20,15 +20,17 @@ void PointerProbe::follow(State& state)
         key_.clear();
         return;
     }
-    const Side& side = sideOf(state, state.compare == Compare::flip && state.second);
-    const std::string key =
-        fmt::format("{} {} {} {} {} {}", state.pointer.x, state.pointer.y, formatCamera(state.camera),
-                    state.model->number, side.frame, int(side.tangents));
+    const bool right = state.compare == Compare::divider && state.pointer.x > state.divider * float(state.size.x);
+    const bool second = (state.compare == Compare::flip && state.second) || (right && state.b.high);
+    const Side side = sideOf(state, second);
+    const std::shared_ptr<const Model>& shown = side.high ? state.highModel : state.model;
+    const std::string key = fmt::format("{} {} {} {} {} {}", state.pointer.x, state.pointer.y,
+                                        formatCamera(state.camera), shown->number, side.frame, int(side.tangents));
     if (key == key_)
         return;
     key_ = key;
-    const auto look = [this, model = state.model, camera = state.camera, size = state.size, pointer = state.pointer,
-                       side, picture = state.picture] {
+    const auto look = [this, model = shown, camera = state.camera, size = state.size, pointer = state.pointer, side,
+                       picture = side.high ? optionsOf(state, second) : state.picture] {
         Probe probe;
         probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
         if (!probe.hit)

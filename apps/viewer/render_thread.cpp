@@ -170,15 +170,15 @@ Order orderOf(const State& state)
     Order order;
     order.first = optionsOf(state, false);
     order.second = optionsOf(state, true);
-    order.a = state.a;
-    order.b = state.b;
-    order.show = state.show;
+    order.a = sideOf(state, false);
+    order.b = sideOf(state, true);
     order.compare = state.compare;
     order.flipped = state.second;
     order.model = state.model;
+    order.highModel = state.highModel;
     order.exposure = state.metered;
     order.meteredFrom = state.meteredFrom.empty() ? state.picture.camera : state.meteredFrom;
-    order.draft = state.moving || state.playing;
+    order.draft = inMotion(state);
     order.figures = state.statisticsShown && !order.draft && !replacesMaterials(state.show);
     return order;
 }

@@ -15,10 +15,9 @@ struct Order {
     std::uint64_t number = 0; // ascending
     PictureOptions first, second;
     Side a, b;
-    std::string show = "shaded";
     Compare compare = Compare::off;
     bool flipped = false;
-    std::shared_ptr<const Model> model;
+    std::shared_ptr<const Model> model, highModel;
     float exposure = 0;      // the metered exposure for "auto"; 0: meter it
     std::string meteredFrom; // camera to meter from, as text
     bool draft = false;      // if drawing is slow, draw smaller and without figures

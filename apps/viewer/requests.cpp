@@ -69,8 +69,9 @@ Status carryOut(Parts& parts, const request::Paste&)
                         : perform(parts.state, "drop " + path);
 }
 
-Status carryOut(Parts& parts, const request::ChooseFile&)
+Status carryOut(Parts& parts, const request::ChooseFile& r)
 {
+    parts.chosenFor = r.command;
     parts.dialog.ask(*parts.window, parts.state.picture.model);
     return Done{};
 }
@@ -134,6 +135,14 @@ Status carryOut(Parts& parts, const request::Load& r)
     return Done{};
 }
 
+Status carryOut(Parts& parts, const request::LoadHigh& r)
+{
+    parts.loader.readHigh(parts.state.picture, r.files);
+    parts.state.loading = fileName(r.files.front());
+    parts.state.progress = 0;
+    return Done{};
+}
+
 } // namespace
 
 void beginLoads(Parts& parts)
@@ -153,6 +162,7 @@ void watchShown(Parts& parts)
     std::vector<std::string> named{fmt::format("{}", s.loads), s.picture.model, s.a.normalMap, s.b.normalMap,
                                    s.picture.environment};
     std::ranges::copy(s.picture.maps.files(), std::back_inserter(named));
+    parts.highWatch.on({s.high.begin(), s.high.end()});
     if (named == parts.watched)
         return;
     parts.watched = named;
@@ -178,10 +188,12 @@ Status carryOutRequests(Parts& parts)
     if (const auto chosen = parts.dialog.take(*parts.window); !chosen)
         parts.state.problem = chosen.error().message;
     else if (!chosen->empty())
-        apply(parts.state, {0, EventKind::drop, 0, 0, *chosen});
+        apply(parts.state, {0, EventKind::command, 0, 0, parts.chosenFor + " " + *chosen});
     watchShown(parts);
     if (parts.watch.changed(secondsNow()))
         parts.state.requests.push_back(request::Load{parts.state.picture.model});
+    if (parts.highWatch.changed(secondsNow()))
+        parts.state.requests.push_back(request::LoadHigh{parts.state.high});
     return first;
 }
 

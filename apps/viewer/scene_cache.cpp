@@ -42,6 +42,12 @@ bool plain(const PictureOptions& o, std::optional<Frame> frame, const Scene& sce
         && !lacksMeantFrame(o, scene);
 }
 
+// The model of a side.
+const std::shared_ptr<const Model>& modelOf(const Order& order, bool second)
+{
+    return (second ? order.b : order.a).high ? order.highModel : order.model;
+}
+
 // The frame of a side; none: each mesh's own. The frame's name must be valid.
 std::optional<Frame> frameOf(const Order& order, bool second, const Scene& scene)
 {
@@ -136,34 +142,36 @@ Status SceneCache::drawInto(const Order& order, Drawn& drawn, Aim aim)
         drawn.picture.onHost = std::make_shared<Image>(heatMap(*degrees, view->width, view->height));
         return Done{};
     }
-    COTAN_TRY(drawing, drawSide(order, **first, *view, order.first, aim));
+    COTAN_TRY(drawing, drawSide(**first, *view, second ? order.second : order.first, aim));
     drawn.picture = std::move(*drawing);
     if (order.compare != Compare::divider)
         return Done{};
     COTAN_TRY(other, cachedScene(1, order, true));
-    COTAN_TRY(otherView, viewFor(order, **other, true, drawn.exposure));
+    const bool alone = !meters(order.first) && meters(order.second); // detail beside a mask, which has no light
+    COTAN_TRY(otherView, viewFor(order, **other, true, alone ? order.exposure : drawn.exposure));
+    if (alone)
+        drawn.exposure = otherView->exposure;
     if (drawn.draft)
         *otherView = smaller(*otherView);
-    drawing = drawSide(order, **other, *otherView, order.second, aim);
+    drawing = drawSide(**other, *otherView, order.second, aim);
     if (!drawing)
         return drawing.error();
     drawn.other = std::move(*drawing);
     return Done{};
 }
 
-Result<Drawing> SceneCache::drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,
-                                     Aim aim)
+Result<Drawing> SceneCache::drawSide(CachedScene& s, const View& view, const PictureOptions& o, Aim aim)
 {
-    const bool inspects = inspectionFromName(order.show).has_value();
-    if (aim == Aim::window && outputOf(order.show) == Output::shaded && o.edges == Edges::none) {
+    const bool inspects = inspectionFromName(o.show).has_value();
+    if (aim == Aim::window && outputOf(o.show) == Output::shaded && o.edges == Edges::none) {
         auto drawn = drawOnDevice(*s.renderer, inspects ? inspectionView(view) : view);
         if (!drawn || *drawn)
             return drawn ? Result<Drawing>({std::move(*drawn), nullptr}) : drawn.error();
     }
     const auto frame = view.framesOfMeshes ? std::nullopt : std::optional(view.frame);
-    const Frame meant = order.show == "error" ? meantFrame(o, *s.scene, frame) : Frame::exact; // else not read
-    COTAN_TRY(image, drawShow(*s.renderer, *s.scene, view, order.show, aim == Aim::floatFile, meant));
-    COTAN_CHECK(layEdgesOn(order, s, view, o, *image));
+    const Frame meant = o.show == "error" ? meantFrame(o, *s.scene, frame) : Frame::exact; // else not read
+    COTAN_TRY(image, drawShow(*s.renderer, *s.scene, view, o.show, aim == Aim::floatFile, meant));
+    COTAN_CHECK(layEdgesOn(s, view, o, *image));
     return Drawing{nullptr, std::make_shared<Image>(std::move(*image))};
 }
 
@@ -175,15 +183,14 @@ Result<std::unique_ptr<Renderer>> SceneCache::openRenderer(const PictureOptions&
     return app::openDevice(o.device, common_);
 }
 
-Status SceneCache::layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,
-                              Image& image)
+Status SceneCache::layEdgesOn(CachedScene& s, const View& view, const PictureOptions& o, Image& image)
 {
     if (o.edges == Edges::none)
         return Done{};
-    const std::string key = fmt::format("{}", order.model->number);
-    if (edges_.key != key || !edges_.value)
-        edges_ = {key, surfaceEdges(order.model->scene)};
-    return layEdges(*s.renderer, view, o, *edges_.value, image);
+    const std::string key = fmt::format("{}", s.model->number);
+    if (s.edges.key != key || !s.edges.value)
+        s.edges = {key, surfaceEdges(s.model->scene)};
+    return layEdges(*s.renderer, view, o, *s.edges.value, image);
 }
 
 Result<std::vector<float>> SceneCache::degreesOf(const Order& order, CachedScene& first, const View& view,
@@ -211,11 +218,12 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
 {
     const PictureOptions& o = second ? order.second : order.first;
     const Side& side = second ? order.b : order.a;
+    const std::shared_ptr<const Model>& model = modelOf(order, second);
     COTAN_TRY(choice, parseFrameChoice(side.frame));
-    const std::string inspection = !normals && replacesMaterials(order.show) ? order.show : "";
+    const std::string inspection = !normals && replacesMaterials(o.show) ? o.show : "";
     const std::optional<Frame> frame =
-        chosenFrame(*choice, o, order.model->scene); // of the model's own maps; others are not applied yet
-    const std::string key = sceneKey(*order.model, o, frame, inspection);
+        chosenFrame(*choice, o, model->scene); // of the model's own maps; others are not applied yet
+    const std::string key = sceneKey(*model, o, frame, inspection);
     for (CachedScene& known : cachedScenes_)
         if (known.key == key && known.renderer)
             return &known;
@@ -226,7 +234,7 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
         s.renderer = std::move(*renderer);
     }
     s.renderer->forget();
-    const auto modelBefore = std::exchange(s.model, order.model);
+    const auto modelBefore = std::exchange(s.model, model);
     const Scene ownBefore = std::exchange(s.own, {});
     const Scene* before = !loaded ? nullptr : s.scene == &s.own ? &ownBefore : s.scene;
     s.scene = &s.model->scene;
@@ -250,9 +258,9 @@ Result<View> SceneCache::viewFor(const Order& order, CachedScene& s, bool second
     if (!view)
         return view;
     view->setFrame(frameOf(order, second, *s.scene));
-    view->output = outputOf(order.show);
-    view->lights = lightsOf(o, *s.scene);
-    const bool unlit = o.use == PictureUse::data; // data is drawn without lighting
+    view->output = outputOf(o.show);
+    view->lights = lightsOf(o, order.model->scene); // also on the detailed model
+    const bool unlit = o.use == PictureUse::data;   // data is drawn without lighting
     if (!unlit && (environment_.key != lightKey(o) || !environment_.value)) {
         COTAN_TRY(opened, openEnvironmentMap(o));
         environment_ = {lightKey(o), *opened};
@@ -260,9 +268,9 @@ Result<View> SceneCache::viewFor(const Order& order, CachedScene& s, bool second
     view->environmentMap = unlit ? nullptr : *environment_.value;
     const std::string under =
         fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows, o.shadowSoftness.value_or(-1));
-    if (under != ground_.key || !ground_.value)
-        ground_ = {under, groundOf(o, *s.scene, *view)};
-    view->ground = *ground_.value;
+    if (under != s.ground.key || !s.ground.value)
+        s.ground = {under, groundOf(o, *s.scene, *view)};
+    view->ground = *s.ground.value;
     if (meters(o) && exposure <= 0) {
         View meteringView = *view;
         PictureOptions from = o;

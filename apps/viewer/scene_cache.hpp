@@ -25,6 +25,8 @@ struct CachedScene {
     Scene own;
     const Scene* scene = nullptr;
     std::unique_ptr<Renderer> renderer;
+    Kept<std::shared_ptr<const GroundMap>> ground;
+    Kept<std::vector<SurfaceEdge>> edges;
 };
 
 // Used by one thread only.
@@ -45,9 +47,9 @@ public:
 private:
     enum class Aim { window, file, floatFile };
     Status drawInto(const Order& order, Drawn& drawn, Aim aim);
-    Result<Drawing> drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, Aim aim);
+    Result<Drawing> drawSide(CachedScene& s, const View& view, const PictureOptions& o, Aim aim);
     Result<std::unique_ptr<Renderer>> openRenderer(const PictureOptions& o) const;
-    Status layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, Image& image);
+    Status layEdgesOn(CachedScene& s, const View& view, const PictureOptions& o, Image& image);
     // Angles between the normals of the first image and those of the same scene with the frame `meant`, or of the
     // second image.
     Result<std::vector<float>> degreesOf(const Order& order, CachedScene& first, const View& view,
@@ -62,8 +64,6 @@ private:
     std::shared_ptr<Device> device_;
     std::array<CachedScene, 2> cachedScenes_;
     Kept<std::shared_ptr<const EnvironmentMap>> environment_;
-    Kept<std::shared_ptr<const GroundMap>> ground_;
-    Kept<std::vector<SurfaceEdge>> edges_;
     double seconds_ = 0; // drawing time of the last image that is no draft
 };
 

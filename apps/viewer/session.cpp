@@ -193,7 +193,7 @@ private:
     {
         if (options_.plays)
             return player_.waits() ? 0.01 : 0;
-        return state_.playing || !state_.keysDown.empty() ? 0.008 : 0.25;
+        return state_.playing || state_.turning || !state_.keysDown.empty() ? 0.008 : 0.25;
     }
 
     Result<std::vector<Event>> nextEvents(double& passed)
@@ -261,7 +261,7 @@ private:
             return;
         const std::string& file = state_.picture.model;
         parts_.window->setTitle(fmt::format("{} - cotan view", file.empty() ? std::string("cotan") : fileName(file)));
-        for (const std::string& line : state_.model->scene.warnings)
+        for (const std::string& line : loaded.model->scene.warnings)
             app::warn(options_.common, line);
     }
 

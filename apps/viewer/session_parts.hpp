@@ -45,8 +45,10 @@ struct Parts {
     Pictures pictures;
     PointerProbe probe;
     Dialog dialog;
-    Watch watch;                      // all displayed files
+    Watch highWatch;                  // the files of the detailed model
+    Watch watch;                      // all other displayed files
     std::vector<std::string> watched; // the names that these files were found by
+    std::string chosenFor;            // the command that gets the file of the dialog
     bool quits = false;
 };
 

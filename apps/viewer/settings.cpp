@@ -23,6 +23,7 @@ std::span<const Setting> settings()
                                           {"no-normal-maps", nothing},
                                           {"height-map", nothing},
                                           {"height-depth", nothing},
+                                          {"mask", nothing},
                                           {"point-sampled", nothing},
                                           {"specular-antialiasing", nothing},
                                           {"samples", nothing},

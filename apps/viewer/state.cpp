@@ -41,6 +41,16 @@ std::string compareName(Compare compare)
                                        : "off";
 }
 
+// Whether only the window shows this image: it has both models, detail of several files, or the light of one model on
+// the other.
+bool needsWindow(const State& state, bool both, bool second)
+{
+    return (both && (showsHigh(state, false) || showsHigh(state, true)))
+        || (showsHigh(state, second)
+            && (state.high.size() > 1 || !state.model || !state.model->scene.lights.empty()
+                || !state.highModel->scene.lights.empty()));
+}
+
 std::string textOf(const glm::vec3& v)
 {
     return fmt::format("{:.4f} {:.4f} {:.4f}", v.x + 0.0f, v.y + 0.0f, v.z + 0.0f);
@@ -61,16 +71,44 @@ const GltfAnimation* animationOf(const State& state)
     return parseNumber(std::string_view(wanted), number) && number < all.size() ? &all[number] : nullptr;
 }
 
+bool showsHigh(const State& state, bool second) { return (second ? state.b : state.a).high && state.highModel; }
+
+Side sideOf(const State& state, bool second)
+{
+    Side side = second ? state.b : state.a;
+    if (showsHigh(state, second)) {
+        side = {};
+        side.high = true;
+    }
+    return side;
+}
+
+void closeHigh(State& state)
+{
+    state.highModel.reset();
+    state.high.clear();
+    state.a.high = state.b.high = false;
+}
+
 PictureOptions optionsOf(const State& state, bool second)
 {
     PictureOptions o = state.picture;
     o.size = {std::max(1, state.size.x), std::max(1, state.size.y)};
     if (state.cameraMoved)
         o.camera = formatCamera(state.camera);
-    o.use = showsLight(state.show) ? PictureUse::shown : PictureUse::data;
+    const Side side = sideOf(state, second);
+    o.show = side.high && state.show == "mask" ? "clay" : state.show;
+    o.use = showsLight(o.show) ? PictureUse::shown : PictureUse::data;
     if (state.compare == Compare::angle)
         o.use = PictureUse::data;
-    const Side& side = sideOf(state, second);
+    if (side.high) {
+        o.maps = {};
+        o.model = state.high.front();
+        for (std::string* word : {&o.shape, &o.variant, &o.animation})
+            word->clear();
+        o.time = 0;
+        o.camera = formatCamera(state.camera); // others would frame this model
+    }
     o.tangents = side.tangents;
     o.maps.normal = side.normalMap;
     o.maps.convention = side.convention;
@@ -110,25 +148,36 @@ void resetCamera(State& state)
 
 std::string commandLine(const State& state, const std::string& file, glm::ivec2 size)
 {
-    const bool second = state.compare == Compare::flip && state.second;
+    const bool both = state.compare == Compare::angle || state.compare == Compare::divider;
+    bool second = state.compare == Compare::flip && state.second;
+    const bool views = needsWindow(state, both, second);
+    if (views)
+        second = state.a.high;
     const PictureOptions o = optionsOf(state, second), usual;
-    const Side& side = sideOf(state, second);
-    std::string text =
-        state.compare == Compare::angle || state.compare == Compare::divider ? "cotan compare" : "cotan render";
-    const bool compares = text == "cotan compare";
+    const Side side = sideOf(state, second);
+    const bool compares = both && !views;
+    std::string text = views ? "cotan view" : compares ? "cotan compare" : "cotan render";
     const auto add = [&](const std::string& name, const std::string& value) {
         text += " --" + name + " " + quoted(value);
     };
     if (!o.model.empty())
         text += " " + quoted(o.model);
-    text += " -o " + quoted(file) + fmt::format(" --size {}x{}", size.x, size.y);
+    if (!views)
+        text += " -o " + quoted(file);
+    text += fmt::format(" --size {}x{}", size.x, size.y);
+    for (std::size_t i = 0; views && i < state.high.size(); ++i)
+        add("high", state.high[i]);
+    if (views && state.compare != Compare::divider)
+        add("do", state.compare == Compare::flip ? "flip" : "compare " + compareName(state.compare));
     if (compares)
         add("frames", state.a.frame + "," + state.b.frame);
     else if (side.frame != kAutoFrame)
         add("frame", side.frame);
-    if (!compares && state.show != "shaded")
-        add("view", state.show);
+    if (!compares && o.show != "shaded")
+        add("view", o.show);
     for (const PictureOption& option : pictureOptions()) {
+        if (option.name == "mask" && (compares || o.show != "mask")) // it would be ignored
+            continue;
         std::string value = option.name == "size" || option.name == "view" ? option.word(usual) : option.word(o);
         if (option.name == "exposure" && value == kAutoExposure && state.metered > 0 && o.use == PictureUse::shown
             && !keepsFloats(file))
@@ -155,12 +204,13 @@ std::string reportOf(const State& state)
     add("size", fmt::format("{}x{}", state.size.x, state.size.y));
     add("view", state.show);
     for (const bool second : {false, true}) {
-        const Side& side = sideOf(state, second);
+        const Side side = sideOf(state, second);
         add(second ? "second" : "first",
-            fmt::format("{} {} {} {}", side.frame, wordOf(kTangentOrigins, side.tangents),
+            fmt::format("{}{} {} {} {}", side.high ? "high " : "", side.frame, wordOf(kTangentOrigins, side.tangents),
                         side.normalMap.empty() ? "-" : fileName(side.normalMap),
                         side.convention.empty() ? "-" : side.convention));
     }
+    add("high", state.highModel ? fmt::format("{} triangles", trianglesDrawn(state.highModel->scene)) : "none");
     add("compare", compareName(state.compare) + (state.second ? " second" : ""));
     add("divider", fmt::format("{:.3f}", state.divider));
     add("camera moved", state.cameraMoved ? "yes" : "no");
@@ -172,6 +222,7 @@ std::string reportOf(const State& state)
     for (const Setting& setting : settings())
         add(setting.option.name, valueOf(setting, state.picture));
     add("playing", state.playing ? "yes" : "no");
+    add("turning", state.turning ? "yes" : "no");
     add("metered", fmt::format("{:.4f}", state.metered));
     add("light pinned", state.lightPinned ? "yes" : "no");
     add("interface", state.interfaceShown ? "shown" : "hidden");

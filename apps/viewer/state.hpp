@@ -35,6 +35,7 @@ struct Side {
     TangentOrigin tangents = TangentOrigin::stored;
     std::string normalMap;  // a file; empty: the model's own map
     std::string convention; // option text; empty: as the file says
+    bool high = false;      // shows State::highModel, if there is one, with its own frames and maps
 
     friend bool operator==(const Side&, const Side&) = default;
 };
@@ -51,6 +52,9 @@ namespace request {
 struct Load {
     std::string model; // a file; empty: the shape or the built-in scene
 };
+struct LoadHigh {
+    std::vector<std::string> files; // of the detailed model, at least one
+};
 struct Pose {}; // poses the model at picture.time of picture.animation
 struct WriteImage {
     std::string file; // empty or "-": an unused name; ".exr": an unused name for a float image
@@ -66,7 +70,9 @@ struct Copy {
     std::string text;
 };
 struct Paste {};
-struct ChooseFile {};
+struct ChooseFile {
+    std::string command = "open"; // that gets the file
+};
 struct Resize {
     glm::ivec2 size{0};
 };
@@ -75,7 +81,7 @@ struct FindProblemAreas {};
 struct Quit {};
 } // namespace request
 
-using Request = std::variant<request::Load, request::Pose, request::WriteImage, request::WriteWindow,
+using Request = std::variant<request::Load, request::LoadHigh, request::Pose, request::WriteImage, request::WriteWindow,
                              request::WriteReport, request::Copy, request::Paste, request::ChooseFile, request::Resize,
                              request::LoseSurface, request::FindProblemAreas, request::Quit>;
 
@@ -106,8 +112,11 @@ struct State {
     bool moving = false;         // the user is moving the camera
     float rate = 1, speed = 0.5; // speed of the animation; speed of flying, model sizes per second
     bool playing = false, loops = true;
+    bool turning = false; // on the turntable
 
     std::shared_ptr<const Model> model;                   // null until the first one is read
+    std::shared_ptr<const Model> highModel;               // the detailed model that `model` is baked from; null: none
+    std::vector<std::string> high;                        // its files
     std::optional<std::vector<ProblemArea>> problemAreas; // none: not searched yet
     std::optional<std::size_t> problemArea;               // the selected one, whose triangle is outlined
     std::vector<std::string> recent;                      // files, most recent first
@@ -144,14 +153,24 @@ void forgetProblemAreas(State& state);
 // The animation selected by picture.animation; null if there is none.
 const GltfAnimation* animationOf(const State& state);
 
-// Options for drawing the first or the second image.
+// Whether the first or the second image shows the detailed model.
+bool showsHigh(const State& state, bool second);
+// How the first or the second image is drawn, and with which options; `show` is the view, in which detail is clay
+// beside a mask, which it has none of.
+Side sideOf(const State& state, bool second);
 PictureOptions optionsOf(const State& state, bool second);
-inline const Side& sideOf(const State& state, bool second) { return second ? state.b : state.a; }
+
+// Whether the image is about to change, so that a draft of it will do.
+inline bool inMotion(const State& state) { return state.moving || state.playing || state.turning; }
 
 // Resets the camera to picture.camera, or to the default of `cotan render`. Does nothing without a model.
 void resetCamera(State& state);
 
-// The command line that renders the displayed image: the second one if a flip shows it.
+// Forgets the detailed model.
+void closeHigh(State& state);
+
+// The command line that renders the displayed image: the second one if a flip shows it. Images of the detailed model
+// that no command renders are those of `cotan view`.
 std::string commandLine(const State& state, const std::string& file, glm::ivec2 size);
 
 // The state as lines "name: value", for tests and people. Numbers are rounded, so that it is the same on every machine.

@@ -22,7 +22,7 @@ struct ViewCommandOptions : CommonOptions {
     PictureOptions picture;
     std::string frame{kAutoFrame};
     std::string second;
-    std::vector<std::string> commands;
+    std::vector<std::string> commands, high;
     std::string play, record;
     bool forget = false;
 };
@@ -61,6 +61,8 @@ Status run(const ViewCommandOptions& o)
             return known.error();
     COTAN_CHECK(beginOutputs(o, {{"--record", o.record}}, /*again*/ true));
     COTAN_CHECK(noteInputs(o.picture));
+    for (const std::string& file : o.high)
+        COTAN_CHECK(noteInput(file));
     viewer::SessionOptions session;
     session.common = o;
     if (!o.play.empty()) {
@@ -81,6 +83,8 @@ Status run(const ViewCommandOptions& o)
     }
     if (!o.second.empty())
         state.compare = viewer::Compare::divider;
+    if (!o.high.empty())
+        state.requests.push_back(viewer::request::LoadHigh{o.high});
     for (const std::string& command : o.commands)
         COTAN_CHECK(viewer::perform(state, command));
     session.record = o.record;
@@ -93,6 +97,10 @@ void declare(app::Arguments& a, ViewCommandOptions& o)
     addFrameOption(a, o.frame);
     a.option("--second", o.second, "a second frame, to compare with the first").in("NAME").offers(frameWords()).main();
     addShowOption(a, o.picture);
+    a.option("--high", o.high, "high-poly mesh, to compare with the model; may be given several times")
+        .in("FILE")
+        .reads()
+        .main();
     a.group(HelpGroup::diagnostics);
     a.option("--do", o.commands, "a viewer command to run at the start, such as \"compare angle\"; may be repeated")
         .in("TEXT");
@@ -113,7 +121,8 @@ void addViewCommand(app::Arguments& tool)
         {"view",
          "Open a model or a map in a window.",
          "",
-         {"cotan view model.glb", "cotan view statue_low.obj --normal-map rocks.png --second mikktspace"}},
+         {"cotan view model.glb", "cotan view statue_low.obj --normal-map rocks.png --second mikktspace",
+          "cotan view statue_low.obj --normal-map rocks.png --high statue.obj"}},
         declare, run);
 }
 

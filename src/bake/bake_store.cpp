@@ -251,15 +251,22 @@ Image packMaps(const std::vector<Baked>& maps, const std::vector<BakeKind>& kind
     return image;
 }
 
+std::span<const MaskColor> maskColors()
+{
+    static constexpr MaskColor kColors[] = {{texelMissed, {1, 0, 0}, "no detail found"},
+                                            {texelNegative, {0, 0.3f, 1}, "points into the surface"},
+                                            {texelOverlapped, {1, 1, 0}, "shared by triangles that differ"},
+                                            {texelCovered, {0, 0.7f, 0}, "baked"},
+                                            {texelTouched, {0, 0.35f, 0}, "baked, beside a chart"}};
+    return kColors;
+}
+
 Image maskOf(const Baked& baked)
 {
-    const auto color = [](std::uint8_t s) {
-        return s & texelMissed    ? glm::vec3(1, 0, 0)
-            : s & texelNegative   ? glm::vec3(0, 0.3f, 1)
-            : s & texelOverlapped ? glm::vec3(1, 1, 0)
-            : s & texelCovered    ? glm::vec3(0, 0.7f, 0)
-            : s & texelTouched    ? glm::vec3(0, 0.35f, 0)
-                                  : glm::vec3(0);
+    const auto color = [](std::uint8_t state) {
+        const auto first =
+            std::ranges::find_if(maskColors(), [state](const MaskColor& c) { return (state & c.state) != 0; });
+        return first == maskColors().end() ? glm::vec3(0) : first->color;
     };
     return imageOfRows(baked.width, baked.height, PixelType::unorm8, false, [&](int y, std::span<glm::vec3> row) {
         for (std::size_t x = 0; x < row.size(); ++x)

@@ -1,8 +1,13 @@
 // Bakes a detailed surface to a map on a simple one.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "bake/high_materials.hpp"
 #include "bake/high_normal_maps.hpp"
@@ -71,7 +76,15 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as);
 Image packMaps(const std::vector<Baked>& maps, const std::vector<BakeKind>& kinds, const PackedMap& packed,
                const StoredAs& as);
 
-// Texel states as colours: covered green, touched dark green, missed red, negative blue, in dispute yellow.
+// The colours of a mask. A texel has that of the first of its states.
+struct MaskColor {
+    std::uint8_t state; // a TexelState
+    glm::vec3 color;    // sRGB
+    std::string_view meaning;
+};
+std::span<const MaskColor> maskColors();
+
+// Texel states as these colours; black without one.
 Image maskOf(const Baked& baked);
 
 // ---- the steps of bakeModel -------------------------------------------------------------------

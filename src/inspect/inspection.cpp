@@ -18,10 +18,10 @@ namespace cotan {
 
 namespace {
 
-constexpr std::array<std::string_view, 17> kNames = {
+constexpr std::array<std::string_view, 18> kNames = {
     "checker",         "density",    "stretch",  "shear",      "mirrored",       "w",
     "facing",          "base-color", "alpha",    "normal-map", "normal-map-red", "normal-map-green",
-    "normal-map-blue", "roughness",  "metallic", "occlusion",  "emissive"};
+    "normal-map-blue", "roughness",  "metallic", "occlusion",  "emissive",       "mask"};
 
 constexpr glm::vec3 kBlue{0.20f, 0.45f, 0.85f}, kOrange{0.95f, 0.55f, 0.15f}, kRed{0.85f, 0.15f, 0.15f},
     kGrey{0.5f}; // sRGB
@@ -224,6 +224,7 @@ glm::vec3 factorOf(const Material& m, Inspection inspection)
     case Inspection::roughness: return glm::vec3(m.roughness);
     case Inspection::metallic: return glm::vec3(m.metallic);
     case Inspection::emissive: return toSrgb(m.emissive);
+    case Inspection::mask: return m.baseColorMap.present() ? glm::vec3(1) : kGrey;
     case Inspection::normalMap: return m.normalMap.present() ? glm::vec3(1) : glm::vec3(0.5f, 0.5f, 1);
     default: return glm::vec3(1);
     }
@@ -254,6 +255,9 @@ void showMap(Scene& scene, Inspection inspection)
         if (texture.present() && hasPixels(scene.images[std::size_t(texture.image)])) {
             m.baseColorMap = texture;
             m.baseColorMap.image = int(images.size());
+            Sampler& sampler = m.baseColorMap.sampler;
+            if (inspection == Inspection::mask)
+                sampler = {sampler.wrapU, sampler.wrapV, Filter::nearest, Filter::nearest, MipFilter::none};
             images.push_back(codesOf(scene.images[std::size_t(texture.image)], map.channel));
         }
         material = std::move(m);

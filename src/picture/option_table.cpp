@@ -169,7 +169,7 @@ PictureOption view()
              "are for); clay, gloss (the relief alone); checker, density, stretch, shear, mirrored (uv and texels), w "
              "(of stored tangents), facing; or one map "
              "by itself: base-color, alpha, normal-map, normal-map-red, normal-map-green, normal-map-blue, roughness, "
-             "metallic, occlusion, emissive");
+             "metallic, occlusion, emissive, mask (--mask)");
     option.check = wordOf(showNames());
     option.closed = true;
     return offering(std::move(option), showNames());
@@ -206,6 +206,7 @@ std::vector<PictureOption> makeTable()
              "image of heights (red): white is the surface, black lies --height-depth below it. Maps are drawn where "
              "the "
              "line of sight meets the heights, which shadow each other"),
+        file("mask", map(&OwnMaps::mask), "image that bake --mask wrote, for --view mask"),
         number("height-depth", input, "D", map(&OwnMaps::heightDepth), kHeightDepths,
                "how far black lies below white, or the lowest of a file of floats below its highest, in the model's "
                "units (default: floats, as bake --kind height writes them, have this unit; else 2 % of the model's "

@@ -151,9 +151,23 @@ Status applyHeightMap(const OwnMaps& maps, int memory, Scene& scene)
     return Done{};
 }
 
+Status applyMask(const OwnMaps& maps, int memory, Scene& scene)
+{
+    if (maps.mask.empty())
+        return usageError("--view mask: expected --mask FILE with it; found none");
+    COTAN_TRY(image, readFor(maps, maps.mask, &Material::normalMap, memory, scene));
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        Material& m = scene.materials[i];
+        m.baseColorMap = m.normalMap;
+        m.baseColorMap.image = isMaterial(scene, i, maps.material) ? int(scene.images.size()) : -1;
+    }
+    scene.images.push_back(std::move(*image));
+    return Done{};
+}
+
 } // namespace
 
-Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
+Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene, const std::string& show)
 {
     const bool any = std::ranges::any_of(maps.files(), [](const std::string& file) { return !file.empty(); });
     const bool reinterprets = maps.normal.empty() && !maps.convention.empty();
@@ -183,7 +197,9 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
         COTAN_TRY(image, readFor(maps, file, slot, memory, scene));
         assignImage(scene, std::move(*image), slot, maps.material, change);
     }
-    return maps.height.empty() ? Status(Done{}) : applyHeightMap(maps, memory, scene);
+    if (!maps.height.empty())
+        COTAN_CHECK(applyHeightMap(maps, memory, scene));
+    return show == "mask" ? applyMask(maps, memory, scene) : Status(Done{});
 }
 
 } // namespace cotan

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -288,6 +289,31 @@ void addIdentityWhereEmpty(std::vector<std::vector<glm::dmat3>>& placings)
     for (auto& known : placings)
         if (known.empty())
             known.push_back(glm::dmat3(1));
+}
+
+void appendScene(Scene& scene, Scene more)
+{
+    const int images = int(scene.images.size()), materials = int(scene.materials.size()),
+              meshes = int(scene.meshes.size());
+    for (Material& m : more.materials) {
+        m.copyOf = m.copyOf < 0 ? -1 : m.copyOf + materials;
+        for (const auto& [texture, name] : texturesOf(m))
+            texture->image = texture->present() ? texture->image + images : -1;
+    }
+    for (Mesh& mesh : more.meshes)
+        mesh.material += materials;
+    for (Instance& instance : more.instances)
+        instance.mesh += meshes;
+    const auto append = [](auto& to, auto& from) {
+        to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    };
+    append(scene.images, more.images);
+    append(scene.materials, more.materials);
+    append(scene.meshes, more.meshes);
+    append(scene.instances, more.instances);
+    append(scene.lights, more.lights);
+    append(scene.cameras, more.cameras);
+    append(scene.warnings, more.warnings);
 }
 
 void rotateZUpToYUp(Scene& scene)

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -53,6 +56,32 @@ void weldVertices(Mesh& mesh);
 // Degenerate input: a transform without area or not finite, and triangles without area in space or uv, turn nothing.
 // Source: the Khronos glTF-Sample-Renderer, which moves t and b in its shader (pull request 16).
 void transformTangents(std::vector<glm::vec4>& tangents, const MeshView& mesh, glm::dvec2 uRow, glm::dvec2 vRow);
+
+// ---- several scenes --------------------------------------------------------------------------
+
+// The textures of a material, const or not, with their names for messages.
+template<class M> auto texturesOf(M& m)
+{
+    return std::to_array<std::pair<decltype(&m.normalMap), std::string_view>>(
+        {{&m.baseColorMap, "base colour"},
+         {&m.metallicRoughnessMap, "metal and roughness"},
+         {&m.normalMap, "normal map"},
+         {&m.occlusionMap, "occlusion"},
+         {&m.emissiveMap, "emission"},
+         {&m.coat.map, "coat"},
+         {&m.coat.roughnessMap, "coat roughness"},
+         {&m.coat.normalMap, "coat normal map"},
+         {&m.anisotropy.map, "anisotropy"},
+         {&m.specular.map, "specular"},
+         {&m.specular.colorMap, "specular colour"},
+         {&m.sheen.colorMap, "sheen colour"},
+         {&m.sheen.roughnessMap, "sheen roughness"},
+         {&m.transmission.map, "transmission"},
+         {&m.heightMap.map, "height map"}});
+}
+
+// Adds what another scene has, except its name and Scene::reach.
+void appendScene(Scene& scene, Scene more);
 
 // ---- cameras ---------------------------------------------------------------------------------
 

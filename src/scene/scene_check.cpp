@@ -13,6 +13,7 @@
 #include "cotan/portable.hpp"
 #include "cotan/vector.hpp"
 #include "cotan/view.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 
@@ -101,23 +102,7 @@ private:
 
     Problem checkMaterial(const Material& m) const
     {
-        const std::pair<const Texture*, std::string_view> textures[] = {
-            {&m.baseColorMap, "base colour"},
-            {&m.metallicRoughnessMap, "metal and roughness"},
-            {&m.normalMap, "normal map"},
-            {&m.occlusionMap, "occlusion"},
-            {&m.emissiveMap, "emission"},
-            {&m.coat.map, "coat"},
-            {&m.coat.roughnessMap, "coat roughness"},
-            {&m.coat.normalMap, "coat normal map"},
-            {&m.anisotropy.map, "anisotropy"},
-            {&m.specular.map, "specular"},
-            {&m.specular.colorMap, "specular colour"},
-            {&m.sheen.colorMap, "sheen colour"},
-            {&m.sheen.roughnessMap, "sheen roughness"},
-            {&m.transmission.map, "transmission"},
-            {&m.heightMap.map, "height map"}};
-        for (const auto& [texture, name] : textures)
+        for (const auto& [texture, name] : texturesOf(m))
             if (Problem problem = checkTexture(*texture, name))
                 return problem;
         const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);

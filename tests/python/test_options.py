@@ -29,7 +29,7 @@ RENDER = [
     *({"shape": s, "model": None, "normal_map": "rocks.png"} for s in ("plane", "sphere", "torus", "teapot")),
     {"up": "z"}, {"samples": 1}, {"samples": 16}, {"normal_map": "grain.png"}, {"normal_map": "grain.png", "convention": "directx"},
     {"normal_map": "grain.png", "material": 1}, {"base_color": "rocks.png"}, {"metallic_roughness": "colors.png"}, {"occlusion": "rocks.png"},
-    {"height_map": "height.png"}, {"height_map": "height.png", "height_depth": 0.2},
+    {"height_map": "height.png"}, {"height_map": "height.png", "height_depth": 0.2}, {"view": "mask", "mask": "mask.png"},
     {"variant": "cloth"}, {"variant": 1}, {"animation": "turn"}, {"animation": 1, "time": 0.6}, {"animation": "turn", "time": 0.3},
     *({"edges": e, "view": "stretch"} for e in ("triangles", "seams", "all")), {"shading": "blinn-phong"},
     {"tangents": "generated", "frame": "vertex"},

@@ -179,6 +179,18 @@ void drawScale(const Interface& interface)
     }
 }
 
+void drawLegend(const Interface& interface)
+{
+    const float line = ImGui::GetFrameHeight(), size = ImGui::GetFontSize();
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    float y = ImGui::GetIO().DisplaySize.y / 2 - line * float(interface.legend.size()) / 2;
+    for (const auto& [text, color] : interface.legend) {
+        list.AddRectFilled({size, y}, {2 * size, y + size}, colorOf(color));
+        label(list, {2.5f * size, y}, text, IM_COL32_WHITE);
+        y += line;
+    }
+}
+
 void drawProblemAreas(const Interface& interface, Commands& chosen)
 {
     if (!interface.problemAreasShown)
@@ -280,6 +292,7 @@ std::vector<std::string> drawInterface(const Interface& interface, float scale)
     drawLines(interface, scale);
     drawDivider(interface, scale);
     drawScale(interface);
+    drawLegend(interface);
     if (interface.shown) {
         drawMenus(interface, chosen);
         drawSliders(interface, chosen);

@@ -50,6 +50,7 @@ def render(
     occlusion: Optional[Path] = None,
     height_map: Optional[Path] = None,
     height_depth: Optional[float] = None,
+    mask: Optional[Path] = None,
     variant: Union[str, int, None] = None,
     animation: Union[str, int, None] = None,
     time: Optional[float] = None,

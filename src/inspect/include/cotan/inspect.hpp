@@ -119,6 +119,7 @@ enum class Inspection {
     metallic,
     occlusion,
     emissive,
+    mask, // the colour map of materials that have one, its nearest texels without a factor; others grey
 };
 
 // Their names on the command line, in enum order: "checker", "density", ... "normal-map-red" and so on.

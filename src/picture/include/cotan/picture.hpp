@@ -49,9 +49,10 @@ inline constexpr int kDefaultMemory = 640; // MiB for one image
 // Returns limits with `memory` MiB for one image, and at least as much for all images of a model together.
 LoadLimits limitsFor(int memory, Pixels pixels = Pixels::all);
 
-// The user's own maps for a model: --normal-map, --base-color, --metallic-roughness, --occlusion and --height-map.
+// The user's own maps for a model: --normal-map, --base-color, --metallic-roughness, --occlusion, --height-map, --mask.
 struct OwnMaps { // file names; empty: the model's map, for heights none
     std::string normal, baseColor, metallicRoughness, occlusion, height;
+    std::string mask; // that `cotan bake --mask` wrote, for the view "mask"
     // World units from white down to black, or from the highest to the lowest of a file of floats; 0: no relief. Not
     // set: floats are in world units; for integers 2 % of the diagonal of the scene's box.
     std::optional<float> heightDepth;
@@ -59,7 +60,7 @@ struct OwnMaps { // file names; empty: the model's map, for heights none
                             // as the model declares
     int material = -1;      // index of the only material that gets the maps; -1: all
 
-    std::array<std::string, 5> files() const { return {normal, baseColor, metallicRoughness, occlusion, height}; }
+    std::array<std::string, 6> files() const { return {normal, baseColor, metallicRoughness, occlusion, height, mask}; }
     friend bool operator==(const OwnMaps&, const OwnMaps&) = default;
 };
 
@@ -125,11 +126,13 @@ struct PictureOptions {
 // ---- from options to an image --------------------------------------------------------------
 
 // Replaces maps of the scene's materials by the given ones; does nothing if none is given. memory: MiB for one image.
+// show: the view. In "mask" the mask becomes the only colour map, with the uv set and transform of the normal map.
 // Factors of a material that would scale a new map (base colour, metallic, roughness, occlusion strength) become 1.
 // A height map gets the uv set and transform of the normal map; one with a single value, or a depth of 0, is left out.
 // Errors: ErrorKind::usage for an invalid or non-tangent-space convention, a material out of range, or options without
-// a map; ErrorKind::input if an image cannot be read or no mesh that would show it has texture coordinates.
-Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene);
+// a map, or "mask" without a mask; ErrorKind::input if an image cannot be read or no mesh that would show it has
+// texture coordinates.
+Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene, const std::string& show = "");
 
 // Returns the model as read, the shape or the built-in scene, without the options' maps and without derived attributes.
 // Errors: as loadScene and checkTrianglesDrawn.
