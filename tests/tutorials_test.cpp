@@ -26,7 +26,8 @@ std::vector<std::string> blocksOf(const std::string& text, const std::string& la
     const std::string fence = "\n```" + language + "\n";
     for (std::size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at + 1)) {
         const std::size_t start = at + fence.size();
-        blocks.push_back(text.substr(start, text.find("\n```", start) + 1 - start));
+        const std::string block = text.substr(start, text.find("\n```", start) + 1 - start);
+        blocks.push_back(std::regex_replace(block, std::regex("\\\\\n *"), "")); // a command on two lines is one
     }
     return blocks;
 }

@@ -238,7 +238,7 @@ def bake_maps(
     frame: Frame = "mikktspace",
     convention: Convention = "opengl",
     bits: Union[int, Sequence[int]] = 8,
-    samples: int = 1,
+    samples: int = 4,
     padding: int = 0,
     dither: bool = False,
     ao_rays: int = 64,
