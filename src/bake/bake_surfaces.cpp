@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -32,7 +33,7 @@ public:
     BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options,
                const std::vector<BakeKind>& kinds, std::vector<Baked>& out)
         : low_(low), baker_(baker), raster_(raster), options_(options), kinds_(kinds), maps_(out), out_(out.front()),
-          sums_(kinds.size()), values_(kinds.size())
+          sums_(kinds.size()), shift_(std::countr_zero(unsigned(options.samples))), values_(kinds.size())
     {
         for (const BakeKind kind : kinds) {
             looksOut_ = looksOut_ || kind == BakeKind::occlusion || kind == BakeKind::bentNormal
@@ -97,7 +98,7 @@ private:
     // Index of the map's texel that a texel of the raster belongs to.
     std::size_t texelOf(glm::ivec2 rasterTexel) const
     {
-        const glm::ivec2 texel = options_.samples > 1 ? rasterTexel / options_.samples : rasterTexel;
+        const glm::ivec2 texel = rasterTexel >> shift_;
         return std::size_t(texel.y) * std::size_t(out_.width) + std::size_t(texel.x);
     }
     void mark(std::size_t texel, int flag) { out_.states[texel] = std::uint8_t(out_.states[texel] | flag); }
@@ -208,6 +209,7 @@ private:
     bool suspicious_ = false;      // the last check was positive
     bool looksOut_ = false, looksIn_ = false, hasIds_ = false;
     Around around_;
+    int shift_;                  // from the raster's texels to the map's
     std::vector<Lanes3> values_; // of each map
     std::size_t rays_ = 0;
     std::array<std::size_t, 256> states_{}; // number of texels for each combination of TexelState
