@@ -145,8 +145,8 @@ TEST(HardEdges, aMaskMakesTheRaysOfOneBoxStraightAndOfTheOtherAveraged)
         EXPECT_EQ(byImage[straight], 0);
         EXPECT_GT(byImage[1 - straight], kLeaning);
 
-        const std::array<int, 2> byColors =
-            misplacedBolts(along(BakeRays::vertexColor), straight == 0 ? std::vector{1.0f, 0.0f} : std::vector{0.0f, 1.0f});
+        const std::vector<float> reds = straight == 0 ? std::vector{1.0f, 0.0f} : std::vector{0.0f, 1.0f};
+        const std::array<int, 2> byColors = misplacedBolts(along(BakeRays::vertexColor), reds);
         EXPECT_EQ(byColors[straight], 0);
         EXPECT_GT(byColors[1 - straight], kLeaning);
     }

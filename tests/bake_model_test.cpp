@@ -273,7 +273,8 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
     EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &flat, o.bake.extrusion = 1; }),
               "options.extrusion: a cage already defines where rays start, and the first surface that they hit counts");
     const auto mask = std::make_shared<const Image>(makeImage(2, 2, PixelType::unorm8));
-    const char* const alone = "options.raysMask: expected neither a cage nor the search nearest nor options.rays with it";
+    const char* const alone =
+        "options.raysMask: expected neither a cage nor the search nearest nor options.rays with it";
     EXPECT_EQ(errorWith([&](O& o, H&) { o.bake.raysMask = mask, o.cage = &flat; }), alone);
     EXPECT_EQ(errorWith([&](O& o, H&) { o.bake.raysMask = mask, o.bake.search = BakeSearch::nearest; }), alone);
     EXPECT_EQ(errorWith([&](O& o, H&) { o.bake.raysMask = mask, o.bake.rays = BakeRays::straight; }), alone);

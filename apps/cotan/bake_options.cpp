@@ -223,12 +223,11 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.choice("--samples", model.bake.samples, kSamples, "samples per texel: 1, 4 or 16").in("N");
     a.choice("--search", model.bake.search, kSearches,
              "surface to bake: first (that a ray from outside meets), or nearest (to the low mesh, on either side)");
-    a.choice(
-        "--rays", model.bake.rays, kRays,
-        "which way rays run: auto (straight, but averaged near hard edges), averaged (along normals averaged over "
-        "hard edges: no gaps, but details lean), straight (along the low mesh's normals: gaps at hard edges) or "
-        "vertex-color (straight where the red of the low mesh's vertex colours is 1, averaged where it is 0); no effect "
-        "with --cage and --search nearest");
+    a.choice("--rays", model.bake.rays, kRays,
+             "which way rays run: auto (straight, but averaged near hard edges), averaged (along normals averaged over "
+             "hard edges: no gaps, but details lean), straight (along the low mesh's normals: gaps at hard edges) or "
+             "vertex-color (straight where the red of the low mesh's vertex colours is 1, averaged where it is 0); no "
+             "effect with --cage and --search nearest");
     a.option("--rays-mask", o.job.raysMask,
              "image in the low mesh's uv instead: rays are straight where its red is white, averaged where it is black")
         .in("FILE")

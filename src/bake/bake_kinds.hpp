@@ -29,11 +29,10 @@ inline constexpr Named<BakeKind> kBakeKinds[] = {{"normal", BakeKind::normal},
 inline constexpr Named<IdBy> kIdBy[] = {
     {"material", IdBy::material}, {"object", IdBy::object}, {"vertex-color", IdBy::vertexColor}};
 
-inline constexpr Named<BakeRays> kRays[] = {
-    {"auto", BakeRays::automatic},
-    {"averaged", BakeRays::averaged},
-    {"straight", BakeRays::straight},
-    {"vertex-color", BakeRays::vertexColor}};
+inline constexpr Named<BakeRays> kRays[] = {{"auto", BakeRays::automatic},
+                                            {"averaged", BakeRays::averaged},
+                                            {"straight", BakeRays::straight},
+                                            {"vertex-color", BakeRays::vertexColor}};
 inline constexpr Named<Occluders> kOccluders[] = {{"matched", Occluders::matched}, {"all", Occluders::all}};
 
 inline constexpr std::string_view kPackedOrm = "orm"; // occlusion, roughness and metallic, as engines read them

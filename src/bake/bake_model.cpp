@@ -75,9 +75,9 @@ Status checkRanges(const Scene& low, const BakeModelOptions& options)
         return wrong("options.extrusion", "the search nearest already looks to both sides of the low surface");
     if (b.raysMask && (options.cage || b.search == BakeSearch::nearest || b.rays != BakeRays::automatic))
         return wrong("options.raysMask", "expected neither a cage nor the search nearest nor options.rays with it");
-    if (const Image* m = b.raysMask.get(); m && (m->width < 1 || m->height < 1 || m->data.size() != m->bytesPerPixel() * std::size_t(m->width) * std::size_t(m->height)))
-        return wrong("options.raysMask", "expected an image; found {}x{} texels in {} bytes", m->width, m->height,
-                     m->data.size());
+    if (b.raysMask && !hasPixels(*b.raysMask))
+        return wrong("options.raysMask", "expected an image; found {}x{} texels in {} bytes", b.raysMask->width,
+                     b.raysMask->height, b.raysMask->data.size());
     for (const PackedMap& map : options.packed) {
         if (std::ranges::none_of(map.kinds, [](const auto& kind) { return kind.has_value(); }))
             return wrong("options.packed", "expected a map in one of the channels; found constants only");

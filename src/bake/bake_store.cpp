@@ -52,9 +52,8 @@ void putRow(Image& image, int y, std::span<const glm::vec3> texels, bool dither)
     else if (image.type == PixelType::unorm16)
         put(image.words() + first, [&](float c, std::size_t) { return std::uint16_t(unorm(c) * 65535 + 0.5f); });
     else
-        put(image.bytes8() + first, [&](float c, std::size_t x) {
-            return std::uint8_t(std::min(int(unorm(c) * 255 + offsets[x % 8]), 255));
-        });
+        put(image.bytes8() + first,
+            [&](float c, std::size_t x) { return std::uint8_t(std::min(int(unorm(c) * 255 + offsets[x % 8]), 255)); });
 }
 
 // Calls fill(y, row) for each row of an image, and stores what it fills in.

@@ -313,8 +313,8 @@ void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hit
 void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any, bool spread) const
 {
     Packet packet(probes, probes.before, -1, lengthsOf(probes));
-    FilterContext context = filterContextFor(probes, state_->fronts, groups_,
-                                             spread ? Coherence::incoherent : Coherence::coherent);
+    FilterContext context =
+        filterContextFor(probes, state_->fronts, groups_, spread ? Coherence::incoherent : Coherence::coherent);
     occluded(packet.valid.data(), state_->embree.scene, context.query, packet.rays.ray);
     for (std::size_t i = 0; i < kLanes; ++i)
         any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray

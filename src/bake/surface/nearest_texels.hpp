@@ -26,11 +26,11 @@ inline std::int64_t distance2(std::uint32_t a, std::uint32_t b, int width)
     return dx * dx + dy * dy;
 }
 
-// owner: width * height entries, row by row, at most 65536 a side and fewer than kNoTexel: the texel's own index if it has a value, otherwise
-// kNoTexel. Afterwards every entry is the index of a nearby texel with a value. Two sweeps, down and up, propagate the
-// nearest texel to the eight neighbours (P.-E. Danielsson, Euclidean distance mapping, 1980); `first` applies to the
-// sweep down, the other asks the opposite neighbours in that order. Sometimes errs by a fraction of a texel. The image
-// does not wrap around. If no texel has a value, all entries stay kNoTexel.
+// owner: width * height entries, row by row, at most 65536 a side and fewer than kNoTexel: the texel's own index if it
+// has a value, otherwise kNoTexel. Afterwards every entry is the index of a nearby texel with a value. Two sweeps, down
+// and up, propagate the nearest texel to the eight neighbours (P.-E. Danielsson, Euclidean distance mapping, 1980);
+// `first` applies to the sweep down, the other asks the opposite neighbours in that order. Sometimes errs by a fraction
+// of a texel. The image does not wrap around. If no texel has a value, all entries stay kNoTexel.
 inline void propagateNearest(std::span<std::uint32_t> owner, int width, int height, TieBreak first)
 {
     using Neighbours = std::array<glm::ivec2, 4>; // that the sweep down has visited

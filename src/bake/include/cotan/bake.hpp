@@ -89,9 +89,9 @@ enum class BakeSearch {
 
 // Which way rays run. No effect with a cage and for BakeSearch::nearest.
 enum class BakeRays {
-    automatic, // straight, and averaged in bands along hard edges, as wide as what the rays must show there needs
-    averaged,  // along normals averaged over hard edges: without gaps, but detail that stands off leans
-    straight,  // along the low surface's own normals: with gaps at hard edges that are convex
+    automatic,   // straight, and averaged in bands along hard edges, as wide as what the rays must show there needs
+    averaged,    // along normals averaged over hard edges: without gaps, but detail that stands off leans
+    straight,    // along the low surface's own normals: with gaps at hard edges that are convex
     vertexColor, // between averaged, where the red of the low meshes' vertex colours is 0, and straight, where it is 1
 };
 
@@ -123,8 +123,8 @@ struct BakeOptions {
     BakeSearch search = BakeSearch::first;
     BakeRays rays = BakeRays::automatic;
     std::shared_ptr<const Image> raysMask; // replaces `rays`: between averaged, where its red is 0, and straight, where
-                                          // it is 1. Read with the uv of the low surface, repeated. Null: none
-    float extrusion = 0;         // model units: how far in front of the low surface rays start; 0: measured
+                                           // it is 1. Read with the uv of the low surface, repeated. Null: none
+    float extrusion = 0;                   // model units: how far in front of the low surface rays start; 0: measured
     float maxDistance = 0;       // model units, in front of and behind the low surface; 0: 10 % of the diagonal of its
                                  // bounding box, for BakeSearch::nearest 5 % of the high surface's
     std::vector<glm::vec3> cage; // a position for each vertex of the low surface; empty: no cage. Rays run from the
