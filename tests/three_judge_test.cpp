@@ -122,8 +122,8 @@ TEST(ThreeJudgeOfConvertedMaps, readsThemLikeTheOriginals)
         return page["chess"][pairs[k][0].get<std::string>() + " / " + pairs[k][1].get<std::string>()]["mean"]
             .get<double>();
     };
-    EXPECT_LT(mean(1), mean(0)); // otherwise converting would be pointless
-    if (isOriginal(kModel)) {    // whose new maps are PNG
+    if (isOriginal(kModel)) {        // whose new maps are PNG
+        EXPECT_LT(mean(1), mean(0)); // otherwise converting would be pointless
         EXPECT_LT(mean(1), 0.14);
         EXPECT_GT(mean(2), 0.35); // JPEG keeps the flat texels of `exact`, and adds its own losses
     }
@@ -175,6 +175,8 @@ TEST(ThreeGrooves, areThoseOfStoredTangentsWithoutAny)
         COTAN_NEEDS_DATA(file);
         cases.push_back({{"name", file}, {"url", urlOf(file)}});
     }
+    if (!isOriginal(files[0]))
+        GTEST_SKIP() << "discs that scripts/test-data makes have no tangents: stock three.js judges nothing";
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
         GTEST_SKIP() << "three is not installed (see the test npm_packages)";
     TemporaryFolder folder;
