@@ -43,6 +43,7 @@ CASES = [
     "map mips rocks.png --from gltf -o out.png --json out.json",
     "bake --high panel.gltf --low low.obj --high-normals map --high-map rocks.png --cage cage.obj --size 16x16 --mask seen.png "
     "--verify checked --device reference -o out.png --json out.json",
+    "bake --high layers.obj --low flat.obj --rays-mask mask.png --size 16x16 -o out.png --json out.json",
     "bake --high high.obj --low plain.gltf --size 16x16 -o out.gltf --json out.json",
     "bake --high high.obj --low room.gltf --per-object --size 8x8 -o out.png --json out.json",
     "convert panel.gltf --from-frame mikktspace --to-frame smooth --verify checked --device reference -o other/out.gltf --json out.json",
@@ -55,7 +56,7 @@ CASES = [
     "batch jobs.jsonl --jobs 1 --store kept -o out.html --json out.json",
 ]
 READS = {"--normal-map", "--base-color", "--metallic-roughness", "--occlusion", "--height-map", "--environment", "--play", "--mesh", "--high", "--low",
-         "--high-map", "--cage", "--cards", "--against"}
+         "--high-map", "--rays-mask", "--cage", "--cards", "--against"}
 MASKS_READ = {("map blend", "--mask"), ("map diff", "--mask"), ("render", "--mask"), ("view", "--mask")}  # the option is written by `bake`
 GROUPS = {"look": ["view", "render", "compare", "lint"], "map": ["map"], "make": ["bake", "convert", "tangents", "shader"],
           "others": ["accuracy", "figures", "cost", "batch", "help"]}
