@@ -245,6 +245,7 @@ def bake_maps(
     ao_occluders: Occluders = "matched",
     search: Search = "first",
     rays: Rays = "auto",
+    rays_mask: Optional[Map] = None,
     extrusion: float = 0.0,
     max_distance: float = 0.0,
     cage: Union[Geometry, Sequence[Mesh], None] = None,
@@ -296,7 +297,7 @@ def bake_maps(
 
 def _baked(
     kinds, bits, out, *, low, high, size, frame, kind, pack, convention, samples, padding, dither, ao_rays, ao_occluders,
-    search, rays, extrusion, max_distance, cage, cage_reach, thickness_distance, curvature_radius, id_by, match_by_name,
+    search, rays, rays_mask, extrusion, max_distance, cage, cage_reach, thickness_distance, curvature_radius, id_by, match_by_name,
     wrap, material, udim, tangents, high_normals, high_frame, high_map, high_convention, mask, memory, threads, progress,
     up, high_up,
 ):  # fmt: skip
