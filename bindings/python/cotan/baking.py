@@ -296,10 +296,10 @@ def bake_maps(
 
 
 def _baked(
-    kinds, bits, out, *, low, high, size, frame, kind, pack, convention, samples, padding, dither, ao_rays, ao_occluders,
-    search, rays, rays_mask, extrusion, max_distance, cage, cage_reach, thickness_distance, curvature_radius, id_by, match_by_name,
-    wrap, material, udim, tangents, high_normals, high_frame, high_map, high_convention, mask, memory, threads, progress,
-    up, high_up,
+    kinds, bits, out, *, low, high, size, frame, kind, pack, convention, samples, padding, dither, ao_rays,
+    ao_occluders, search, rays, rays_mask, extrusion, max_distance, cage, cage_reach, thickness_distance,
+    curvature_radius, id_by, match_by_name, wrap, material, udim, tangents, high_normals, high_frame, high_map,
+    high_convention, mask, memory, threads, progress, up, high_up,
 ):  # fmt: skip
     """A list of Baked for `kinds`, of which None is that of `kind` or `pack`. bits, out: one for each."""
     if samples not in (1, 4, 16):
