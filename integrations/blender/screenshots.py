@@ -1,6 +1,6 @@
 """Makes the images of docs/how-to/blender.md from a window on a display without a GPU:
 
-    xvfb-run -a -s "-screen 0 1280x800x24" blender --factory-startup -p 0 0 1280 800 \\
+    xvfb-run -a -s "-screen 0 1280x1000x24" blender --factory-startup -p 0 0 1280 1000 \\
         --python integrations/blender/screenshots.py -- FOLDER
 
 Needs the add-on on the path of Blender's Python, as in tests/blender/run.py, or the installed add-on.

@@ -4,6 +4,8 @@ import textwrap
 
 import bpy
 
+from .settings import MAPS
+
 
 class CotanPanel(bpy.types.Panel):
     bl_idname = "OBJECT_PT_cotan"
@@ -38,7 +40,11 @@ class CotanBakePanel(_Part, bpy.types.Panel):
         layout.prop(s, "frame")
         if s.frame != "mikktspace":
             layout.label(text="Blender's own Normal Map node reads MikkTSpace", icon="INFO")
-        layout.column(align=True).prop(s, "maps")
+        layout.label(text="Maps (Shift-click for several)")
+        grid = layout.grid_flow(columns=2, align=True)
+        grid.use_property_split = False
+        for word, *_ in MAPS:
+            grid.prop_enum(s, "maps", word)
         if "id" in s.maps:
             layout.prop(s, "id_by")
         column = layout.column(align=True)
