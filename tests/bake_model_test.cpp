@@ -235,6 +235,22 @@ TEST(BakeModel, aMapForTheHighSceneIsApplied)
     EXPECT_LE(std::abs(found.z - code(m.z)), 1);
 }
 
+TEST(BakeModel, withoutADistanceTenPercentOfTheLowDiagonalAreSearchedAndFiveOfTheHighOneByNearest)
+{
+    // The low square's diagonal is sqrt(2), the high rectangle's sqrt(10).
+    const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}),
+                high = sceneOfMeshes({rectangle({-1, 0, 0}, {3, 0, 0}, {0, 1, 0})});
+    for (const auto& [search, distance] :
+         {std::pair(BakeSearch::first, 0.1 * std::sqrt(2)), {BakeSearch::nearest, 0.05 * std::sqrt(10)}}) {
+        BakeModelOptions options = smallOptions();
+        options.bake.maxDistance = 0;
+        options.bake.search = search;
+        const auto baked = bakeModel(low, highOf(high), options);
+        ASSERT_TRUE(baked) << baked.error().message;
+        EXPECT_NEAR(baked->maps[0].statistics.rayDistance, distance, 1e-6);
+    }
+}
+
 TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
 {
     const Scene flat = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
