@@ -17,10 +17,10 @@ namespace cotan::viewer {
 //   open FILE | drop FILE | high [FILE] | reload | next | previous | normal-map FILE | orthographic | reset
 //   frame NAME | show NAME | set OPTION VALUE | camera front|fit|N|WORDS | see front|back|left|right|top|bottom
 //   orbit X Y, look X Y (degrees) | pan X Y (pixels) | zoom FACTOR | fly X Y Z | turn, turn-light DEGREES
-//   compare off|divider|flip|angle | flip | divider FRACTION | second frame|tangents|normal-map|convention|high VALUE |
-//   swap tangents NAME | convention WORDS | toggle NAME | scale X | size W H | play | picture [FILE [W H]] | window
-//   FILE report FILE | copy command|camera | paste | choose [COMMAND] | find-hot-spots | hot-spot N | lose-surface |
-//   quit
+//   compare off|divider|flip|angle | flip | divider FRACTION | swap | toggle NAME | scale X | size W H | play
+//   second frame|tangents|normal-map|convention|high VALUE | tangents NAME | convention WORDS | picture [FILE [W H]]
+//   window FILE | report FILE | copy command|camera | paste | choose [COMMAND] | find-hot-spots | hot-spot N
+//   lose-surface | quit
 Status perform(State& state, const std::string& line);
 
 // A command offered by a menu, by a key, or by both.

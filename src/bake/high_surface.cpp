@@ -347,13 +347,11 @@ std::size_t HighSurface::countHits(const Ray& ray) const
     return counting.count;
 }
 
-bool HighSurface::blocked(const Ray& ray, std::uint32_t only) const
+bool HighSurface::blocked(const Ray& ray) const
 {
-    FilterContext context{RayQuery(Coherence::incoherent, only == Probes::kAny ? nullptr : keepOnly), nullptr,
-                          groups_.data()};
+    RayQuery query(Coherence::incoherent);
     RTCRay r = toEmbree(ray).ray;
-    r.id = only;
-    occluded(state_->embree.scene, context.query, r);
+    occluded(state_->embree.scene, query, r);
     return r.tfar < 0;
 }
 

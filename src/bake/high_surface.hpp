@@ -94,8 +94,8 @@ public:
     void outermost(const Probes& probes, HighNormals normals, Hits& hits) const;
     // Whether these rays hit anything, 1 or 0. spread: they run in all directions, as from one point.
     void anyBetween(const Probes& probes, Lanes<int>& any, bool spread = false) const;
-    // Whether the ray hits anything. only: as in Probes.
-    bool blocked(const Ray& ray, std::uint32_t only = Probes::kAny) const;
+    // Whether the ray hits anything.
+    bool blocked(const Ray& ray) const;
     // How far these rays run until they hit anything; infinity if they do not. They may run in all directions.
     void distances(const Probes& probes, Lanes<float>& found) const;
     // The number of triangles that the ray crosses.

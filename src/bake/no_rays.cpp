@@ -23,7 +23,7 @@ void HighSurface::nearest(const Probes&, float, HighNormals, Hits&) const {}
 void HighSurface::outermost(const Probes&, HighNormals, Hits&) const {}
 void HighSurface::anyBetween(const Probes&, Lanes<int>&, bool) const {}
 void HighSurface::distances(const Probes&, Lanes<float>&) const {}
-bool HighSurface::blocked(const Ray&, std::uint32_t) const { return false; }
+bool HighSurface::blocked(const Ray&) const { return false; }
 std::size_t HighSurface::countHits(const Ray&) const { return 0; }
 HighSurface::Triangles HighSurface::triangles(std::size_t) const { return {}; }
 std::size_t HighSurface::instanceCount() const { return 0; }
