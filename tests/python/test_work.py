@@ -199,7 +199,8 @@ def test_memory_is_flat_in_a_loop(tmp_path):
                          env={**os.environ, "MALLOC_ARENA_MAX": "1", "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))})
     assert run.returncode == 0, run.stderr
     used = [float(line) for line in run.stdout.split()]
-    assert len(used) == 40 and used[-1] - used[7] < 20, used  # 32 turns that would lose at least 2 MiB each; 3 are seen
+    # 32 turns would lose 64 MiB or more; 3 are seen. The heap shrinks and grows by some 30 from turn to turn: its top is compared.
+    assert len(used) == 40 and max(used[32:]) - max(used[:8]) < 20, used
 
 
 def test_views_of_images_outlive_their_owner(tmp_path):
