@@ -165,19 +165,20 @@ TEST_F(BakeFeatures, mapsThatDoNotFitTogetherAreRefusedBeforeAnythingIsTraced)
     write("high.obj", square(-1, -1, 0.25, 3) + kFaces);
     const auto with = [&](std::vector<std::string> more) {
         std::vector<std::string> words = {"--high", "high.obj", "--low", "low.obj",  "--size",
-                                          "256",    "-o",       "m.png", "--memory", "4"};
+                                          "256",    "-o",       "m.png", "--memory", "3"};
         words.insert(words.end(), more.begin(), more.end());
         return bake(words);
     };
-    // A texel takes 12 bytes of values, 1 of states and 4 of the image for each map, and 4 for padding: 3.4 MiB for
-    // three maps, 4.5 for four.
+    // A texel takes 4 bytes of the image for each map, 12 of values for directions and heights, and 6 for states and
+    // padding: 2.6 MiB for three maps, 3.6 for four. The last case has 16 for a channel, and 4 for its ao and
+    // curvature.
     EXPECT_EQ(with({"--maps", "position,height,normal"}).code, 0);
     std::filesystem::remove(folder / "m-height.png");
     for (const auto& [words, message] :
          {std::pair(std::vector<std::string>{"--maps", "position,height,normal,object-normal"},
-                    "4 maps of 256x256 take 5 MiB together; the limit is 4 MiB (--memory raises it)"),
-          {{"--maps", "position,height,normal", "--bits", "16"}, "3 maps of 256x256 take 5 MiB"},
-          {{"--maps", "normal", "--pack", "R=ao,G=height,B=curvature"}, "4 maps of 256x256 take 5 MiB"}}) {
+                    "4 maps of 256x256 take 4 MiB together; the limit is 3 MiB (--memory raises it)"),
+          {{"--maps", "position,height,normal", "--bits", "16"}, "3 maps of 256x256 take 4 MiB"},
+          {{"--maps", "normal", "--pack", "R=ao,G=height,B=curvature"}, "4 maps of 256x256 take 4 MiB"}}) {
         const ToolRun r = with(words);
         EXPECT_EQ(r.code, 2) << r.err;
         EXPECT_NE(r.err.find(message), std::string::npos) << r.err;

@@ -93,6 +93,41 @@ TEST(BakeMaps, everyMapOfOneTraceIsTheMapAlone)
     }
 }
 
+TEST(BakeMaps, mapsAreStoredWhileTheyAreBakedAsTheyWouldBeAfterwards)
+{
+    Mesh low = makeTorus(1, 0.4f, 24, 1, 1);
+    for (glm::vec2& uv : low.texcoords[0])
+        uv.x *= 0.6f; // the rest of the map is padding
+    Scene high = sceneOfMeshes({low});
+    high.meshes[0].indices.resize(high.meshes[0].indices.size() / 4 * 3); // rays miss elsewhere
+    high.materials[0].baseColor = {0.9f, 0.6f, 0, 1};
+    high.materials[0].roughness = 0.3f;
+    high.materials[0].emissive = {0, 0.1f, 2};
+    for (const auto& [type, samples, padding] :
+         {std::tuple(PixelType::unorm8, 2, 0), {PixelType::unorm16, 1, 3}, {PixelType::float32, 2, -1}}) {
+        BakeModelOptions options = optionsFor({std::begin(kAll), std::end(kAll)}, type);
+        options.bake.samples = samples;
+        options.bake.occlusionRays = 9;
+        options.padding = padding;
+        options.packed = {{"both", {BakeKind::height, BakeKind::roughness, {}, {}}, {}}};
+        HighModel model;
+        model.scenes.push_back(high);
+        const auto setup = prepareBake(sceneOfMeshes({low}), std::move(model), options);
+        ASSERT_TRUE(setup) << setup.error().message;
+        const auto stored = bakeTile(*setup, 1001);
+        auto baked = bakeMaps(setup->low, setup->high, setup->options.bake, options.kinds);
+        ASSERT_TRUE(stored && baked);
+        EXPECT_GT(baked->front().statistics.missed, 5u);
+        if (padding >= 0)
+            padCharts(*baked, padding);
+        for (std::size_t i = 0; i < std::size(kAll); ++i)
+            EXPECT_TRUE(stored->at(i).image.data == storeBaked(baked->at(i), kAll[i], setup->options.stored).data)
+                << "map " << i << ", " << samples << " samples";
+        EXPECT_TRUE(stored->back().image.data
+                    == packMaps(*baked, options.kinds, options.packed[0], setup->options.stored).data);
+    }
+}
+
 TEST(BakeMaps, raysThatFindTheSurfaceAreTracedOnceForAllMaps)
 {
     const Scene scene = sceneOfMeshes({makeTorus(1, 0.4f, 32, 1, 1)});

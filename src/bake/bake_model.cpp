@@ -46,6 +46,22 @@ std::vector<StoredAs> storedOf(const BakeModelOptions& options)
     return stored;
 }
 
+// How the map of each kind is stored, if its texels can be stored one by one while it is baked, and always alike.
+std::vector<std::optional<StoredAs>> storedAtOnce(const BakeModelOptions& options, const std::vector<BakeKind>& kinds)
+{
+    const std::vector<StoredAs> stored = storedOf(options);
+    const bool alike = options.packed.empty()
+        || std::ranges::all_of(stored, [&](const StoredAs& as) { return as.type == stored[0].type; });
+    std::vector<std::optional<StoredAs>> images(kinds.size());
+    for (std::size_t m = 0; m < kinds.size(); ++m) {
+        const StoredAs& as = stored[std::min(m, stored.size() - 1)];
+        const bool needsAll = as.dither || (kinds[m] == BakeKind::height && as.type != PixelType::float32);
+        if (alike && !needsAll && !holdsDirections(kinds[m])) // whose mean in a texel may be zero
+            images[m] = as;
+    }
+    return images;
+}
+
 Status checkRanges(const Scene& low, const BakeModelOptions& options)
 {
     const BakeOptions& b = options.bake;
@@ -342,10 +358,14 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options, bo
 
 Status checkMapMemory(const BakeModelOptions& options)
 {
-    const std::size_t kinds = kindsOf(options).size();
-    std::size_t perTexel = kinds * (sizeof(glm::vec3) + sizeof(std::uint8_t)) // values and states
-        + (options.packed.empty() ? 0 : 4 * sizeof(float))                    // the image of a channel
-        + (options.mask ? 4 : 0) + sizeof(std::uint32_t);                     // nearest, for padding
+    const std::vector<BakeKind> kinds = kindsOf(options);
+    const std::vector<std::optional<StoredAs>> atOnce = storedAtOnce(options, kinds);
+    std::size_t perTexel = 2 * sizeof(std::uint8_t)        // states, and where there are values
+        + (options.packed.empty() ? 0 : 4 * sizeof(float)) // the image of a channel
+        + (options.mask ? 4 : 0) + sizeof(std::uint32_t);  // nearest, for padding
+    for (std::size_t m = 0; m < kinds.size(); ++m)
+        if (!atOnce[m] || m >= options.kinds.size()) // else the image that is counted below
+            perTexel += atOnce[m] ? 4 * bytesPerComponent(atOnce[m]->type) : sizeof(glm::vec3);
     for (const StoredAs& stored : storedOf(options))
         perTexel += 4 * bytesPerComponent(stored.type);
     const double bytes = double(options.bake.width) * options.bake.height * double(perTexel);
@@ -353,7 +373,7 @@ Status checkMapMemory(const BakeModelOptions& options)
     constexpr double kMiB = 1 << 20;
     if (limit == 0 || bytes <= limit)
         return Done{};
-    return memoryError(fmt::format("{} maps of {}x{} take {:.0f} MiB together; the limit is {:.0f} MiB", kinds,
+    return memoryError(fmt::format("{} maps of {}x{} take {:.0f} MiB together; the limit is {:.0f} MiB", kinds.size(),
                                    options.bake.width, options.bake.height, std::ceil(bytes / kMiB), limit / kMiB));
 }
 
@@ -418,7 +438,7 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
     const std::vector<BakeKind> kinds = kindsOf(setup.options);
     const int n = tile - kFirstUdim;
     options.tile = {n % kUdimColumns, -(n / kUdimColumns)}; // here v runs down from the top of the first tile
-    COTAN_TRY(baked, bakeMaps(setup.low, setup.high, options, kinds, progress));
+    COTAN_TRY(baked, bakeMaps(setup.low, setup.high, options, kinds, progress, storedAtOnce(setup.options, kinds)));
     const std::vector<BakeProblem> problems = problemsOf(setup.low, setup.high, options, kinds, *baked);
     BakeStatistics statistics = baked->front().statistics;
     if (statistics.covered + statistics.touched == 0)
@@ -448,7 +468,7 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
         Baked& one = (*baked)[i];
         BakedMap& map = maps[i];
         map.kind = kinds[i];
-        map.image = storeBaked(one, kinds[i], stored[i]);
+        map.image = one.values.empty() ? std::move(one.image) : storeBaked(one, kinds[i], stored[i]);
         map.unit = one.unit;
         map.format = storedFormat(kinds[i], setup.options.stored.format);
         if (kinds[i] == BakeKind::id)

@@ -1,6 +1,7 @@
 // Fills around the charts of a baked map, and stores it as an image.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -19,6 +20,8 @@ namespace cotan {
 
 namespace {
 
+constexpr std::size_t kBatch = 64; // texels, whole periods of the pattern
+
 // An 8x8 ordered dither pattern (B. Bayer 1973) in [0,1), fixed to the image.
 float bayer(int x, int y)
 {
@@ -30,56 +33,43 @@ float bayer(int x, int y)
     return (float(v) + 0.5f) / 64;
 }
 
-// Writes a row of texels.
+// Writes a row of texels. The components of unorm are first converted in one loop, which the compiler vectorises.
 void putRow(Image& image, int y, std::span<const glm::vec3> texels, bool dither)
 {
     const std::size_t first = 4 * std::size_t(y) * std::size_t(image.width);
     const auto put = [&](auto* to, auto convert) {
-        for (std::size_t x = 0; x < texels.size(); ++x, to += 4) {
-            const glm::vec3 c = texels[x];
-            to[0] = convert(c.x, x);
-            to[1] = convert(c.y, x);
-            to[2] = convert(c.z, x);
-            to[3] = std::remove_pointer_t<decltype(to)>(image.type == PixelType::float32 ? 1 : -1);
+        using Stored = std::remove_pointer_t<decltype(to)>;
+        std::array<Stored, 3 * kBatch> components;
+        for (std::size_t begin = 0; begin < texels.size(); begin += kBatch) {
+            const std::size_t count = std::min(kBatch, texels.size() - begin);
+            const float* const from = &texels[begin].x;
+            for (std::size_t k = 0; k < 3 * count; ++k)
+                components[k] = convert(from[k], k);
+            for (std::size_t i = 0; i < count; ++i, to += 4) {
+                std::copy_n(&components[3 * i], 3, to);
+                to[3] = Stored(image.type == PixelType::float32 ? 1 : -1);
+            }
         }
     };
     const auto unorm = [](float c) { return maps::settled(std::clamp(c, 0.0f, 1.0f)); };
-    std::array<float, 8> offsets;
-    for (int x = 0; x < 8; ++x)
-        offsets[std::size_t(x)] = dither ? bayer(x, y) : 0.5f;
+    std::array<float, 3 * kBatch> offsets;
+    for (std::size_t k = 0; k < offsets.size(); ++k)
+        offsets[k] = dither ? bayer(int(k / 3 % 8), y) : 0.5f;
     if (image.type == PixelType::float32)
         put(image.floats() + first, [](float c, std::size_t) { return c; });
     else if (image.type == PixelType::unorm16)
-        put(image.words() + first, [&](float c, std::size_t) { return std::uint16_t(unorm(c) * 65535 + 0.5f); });
+        put(image.words() + first, [&](float c, std::size_t) { return std::uint16_t(int(unorm(c) * 65535 + 0.5f)); });
     else
         put(image.bytes8() + first,
-            [&](float c, std::size_t x) { return std::uint8_t(std::min(int(unorm(c) * 255 + offsets[x % 8]), 255)); });
+            [&](float c, std::size_t k) { return std::uint8_t(std::min(int(unorm(c) * 255 + offsets[k]), 255)); });
 }
-
-// Calls fill(y, row) for each row of an image, and stores what it fills in.
-template<class Fill> Image imageOfRows(int width, int height, PixelType type, bool dither, const Fill& fill)
-{
-    Image image = makeImage(width, height, type);
-    parallelRanges<int>(0, height, 1 + (1 << 14) / width, [&](int begin, int end) {
-        std::vector<glm::vec3> row(static_cast<std::size_t>(width));
-        for (int y = begin; y != end; ++y) {
-            fill(y, std::span(row));
-            putRow(image, y, row, dither);
-        }
-    });
-    return image;
-}
-
-} // namespace
-
-namespace {
 
 // The texel from which each texel is filled: itself if it has a value, kNoTexel if there is none near enough.
-std::vector<std::uint32_t> nearestFilled(const Baked& baked, int radius)
+std::vector<std::uint32_t> nearestFilled(const Baked& baked, const Baked& first, int radius)
 {
-    std::vector<std::uint32_t> owner(baked.values.size(), kNoTexel);
+    std::vector<std::uint32_t> owner(first.states.size(), kNoTexel);
     for (std::size_t i = 0; i < owner.size(); ++i)
-        if ((baked.states[i] & (texelCovered | texelTouched)) != 0 && baked.values[i] != glm::vec3(0))
+        if ((first.states[i] & (texelCovered | texelTouched)) != 0 && baked.hasValue(first, i))
             owner[i] = std::uint32_t(i);
     propagateNearest(owner, baked.width, baked.height, TieBreak::above);
     const std::int64_t limit = std::int64_t(radius) * radius;
@@ -89,33 +79,58 @@ std::vector<std::uint32_t> nearestFilled(const Baked& baked, int radius)
     return owner;
 }
 
-void fillFrom(const std::vector<std::uint32_t>& owner, Baked& baked)
+constexpr std::size_t kPart = 1 << 16; // texels
+
+// Copies each of the texels from its owner, which stays as it is.
+template<class Texel> void copyFrom(const std::vector<std::uint32_t>& owner, Texel* texels)
 {
-    for (std::size_t i = 0; i < owner.size(); ++i)
-        if (owner[i] != kNoTexel && owner[i] != i) {
-            baked.values[i] = baked.values[owner[i]];
-            baked.states[i] = std::uint8_t(baked.states[i] | texelPadded);
-        }
+    parallelRanges(std::size_t(0), owner.size(), kPart, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (owner[i] != kNoTexel && owner[i] != i)
+                texels[i] = texels[owner[i]];
+    });
 }
 
-bool haveValuesInTheSameTexels(const Baked& a, const Baked& b)
+void fillFrom(const std::vector<std::uint32_t>& owner, Baked& baked)
 {
-    return std::equal(a.values.begin(), a.values.end(), b.values.begin(),
-                      [](glm::vec3 x, glm::vec3 y) { return (x == glm::vec3(0)) == (y == glm::vec3(0)); });
+    if (!baked.values.empty())
+        copyFrom(owner, baked.values.data());
+    else if (baked.image.type == PixelType::float32)
+        copyFrom(owner, reinterpret_cast<std::array<float, 4>*>(baked.image.floats()));
+    else if (baked.image.type == PixelType::unorm16)
+        copyFrom(owner, reinterpret_cast<std::array<std::uint16_t, 4>*>(baked.image.words()));
+    else
+        copyFrom(owner, reinterpret_cast<std::array<std::uint8_t, 4>*>(baked.image.bytes8()));
+    for (std::size_t i = 0; i < baked.states.size(); ++i)
+        if (owner[i] != kNoTexel && owner[i] != i)
+            baked.states[i] = std::uint8_t(baked.states[i] | texelPadded);
+}
+
+// Whether the texels with a value are those that are filled from themselves.
+bool hasValuesIn(const Baked& baked, const Baked& first, const std::vector<std::uint32_t>& owner)
+{
+    std::atomic<bool> same{true};
+    parallelRanges(std::size_t(0), owner.size(), kPart, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end && same; ++i)
+            if (baked.hasValue(first, i) != (owner[i] == i))
+                same = false;
+    });
+    return same;
 }
 
 } // namespace
 
-void padCharts(Baked& baked, int radius) { fillFrom(nearestFilled(baked, radius), baked); }
+void padCharts(Baked& baked, int radius) { fillFrom(nearestFilled(baked, baked, radius), baked); }
 
 void padCharts(std::vector<Baked>& maps, int radius)
 {
-    const std::vector<std::uint32_t> owner = nearestFilled(maps.front(), radius);
-    for (std::size_t m = maps.size(); m-- > 0;) // the first one last, since the others are compared with it
-        if (haveValuesInTheSameTexels(maps[m], maps.front()))
-            fillFrom(owner, maps[m]);
+    const Baked& first = maps.front();
+    const std::vector<std::uint32_t> owner = nearestFilled(first, first, radius);
+    for (Baked& map : maps)
+        if (hasValuesIn(map, first, owner))
+            fillFrom(owner, map);
         else
-            padCharts(maps[m], radius);
+            fillFrom(nearestFilled(map, first, radius), map);
 }
 
 namespace {
@@ -218,13 +233,26 @@ private:
 
 } // namespace
 
+StoreRow rowStore(const Baked& baked, BakeKind kind, const StoredAs& as)
+{
+    return [stored = StoredValue(baked, kind, as), dither = as.dither](int y, std::span<const glm::vec3> values,
+                                                                       Image& image) {
+        std::vector<glm::vec3> row(values.size());
+        stored.row(values, row);
+        putRow(image, y, row, dither);
+    };
+}
+
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
 {
-    const StoredValue stored(baked, kind, as);
+    Image image = makeImage(baked.width, baked.height, as.type);
+    const StoreRow store = rowStore(baked, kind, as);
     const auto width = static_cast<std::size_t>(baked.width);
-    return imageOfRows(baked.width, baked.height, as.type, as.dither, [&](int y, std::span<glm::vec3> row) {
-        stored.row({&baked.values[std::size_t(y) * width], width}, row);
+    parallelRanges<int>(0, baked.height, 1 + (1 << 14) / baked.width, [&](int begin, int end) {
+        for (int y = begin; y != end; ++y)
+            store(y, {&baked.values[std::size_t(y) * width], width}, image);
     });
+    return image;
 }
 
 Image packMaps(const std::vector<Baked>& maps, const std::vector<BakeKind>& kinds, const PackedMap& packed,
@@ -234,8 +262,10 @@ Image packMaps(const std::vector<Baked>& maps, const std::vector<BakeKind>& kind
     const std::size_t size = bytesPerComponent(as.type);
     for (std::size_t channel = 0; channel < 4; ++channel) {
         Image source;
-        if (const std::optional<BakeKind> kind = packed.kinds[channel])
-            source = storeBaked(maps[std::size_t(std::ranges::find(kinds, *kind) - kinds.begin())], *kind, as);
+        if (const std::optional<BakeKind> kind = packed.kinds[channel]) {
+            const Baked& map = maps[std::size_t(std::ranges::find(kinds, *kind) - kinds.begin())];
+            source = map.values.empty() ? map.image : storeBaked(map, *kind, as);
+        }
         const float constant = packed.constants[channel];
         const auto eight = std::uint8_t(constant * 255 + 0.5f);
         const auto sixteen = std::uint16_t(constant * 65535 + 0.5f);
@@ -267,10 +297,14 @@ Image maskOf(const Baked& baked)
             std::ranges::find_if(maskColors(), [state](const MaskColor& c) { return (state & c.state) != 0; });
         return first == maskColors().end() ? glm::vec3(0) : first->color;
     };
-    return imageOfRows(baked.width, baked.height, PixelType::unorm8, false, [&](int y, std::span<glm::vec3> row) {
+    Image image = makeImage(baked.width, baked.height, PixelType::unorm8);
+    std::vector<glm::vec3> row(static_cast<std::size_t>(baked.width));
+    for (int y = 0; y < baked.height; ++y) {
         for (std::size_t x = 0; x < row.size(); ++x)
             row[x] = color(baked.states[std::size_t(y) * row.size() + x]);
-    });
+        putRow(image, y, row, false);
+    }
+    return image;
 }
 
 } // namespace cotan

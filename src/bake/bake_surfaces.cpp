@@ -31,14 +31,16 @@ class BlockBaker {
 public:
     // out: a map of each kind; the states are those of the first.
     BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options,
-               const std::vector<BakeKind>& kinds, std::vector<Baked>& out)
-        : low_(low), baker_(baker), raster_(raster), options_(options), kinds_(kinds), maps_(out), out_(out.front()),
-          sums_(kinds.size()), shift_(std::countr_zero(unsigned(options.samples))), values_(kinds.size())
+               const std::vector<BakeKind>& kinds, const std::vector<StoreRow>& stores, std::vector<Baked>& out)
+        : low_(low), baker_(baker), raster_(raster), options_(options), kinds_(kinds), stores_(stores), maps_(out),
+          out_(out.front()), sums_(kinds.size()), shift_(std::countr_zero(unsigned(options.samples))),
+          values_(kinds.size())
     {
         for (const BakeKind kind : kinds) {
             looksOut_ = looksOut_ || kind == BakeKind::occlusion || kind == BakeKind::bentNormal
                 || kind == BakeKind::objectBentNormal;
             looksIn_ = looksIn_ || kind == BakeKind::thickness;
+            readsMaterials_ = readsMaterials_ || readsMaterials(kind);
             hasIds_ = hasIds_ || kind == BakeKind::id;
         }
     }
@@ -62,13 +64,13 @@ public:
         }
         for (const glm::ivec2& rasterTexel : samples_.coveredTwice)
             mark(texelOf(rasterTexel), texelOverlapped);
-        for (std::size_t i = 0; i < texels; ++i) {
-            for (std::size_t m = 0; m < kinds_.size() && found_[i] > 0; ++m)
-                maps_[m].values[base_ + i] = kinds_[m] == BakeKind::id
-                    ? glm::vec3(mostFrequent({&ids_[i * samplesPerTexel()], found_[i]}), 0, 1)
-                    : texelValue(kinds_[m], sums_[m][i], found_[i]);
+        for (std::size_t m = 0; m < kinds_.size(); ++m)
+            finish(m, first);
+        for (std::size_t i = 0; i < texels; ++i)
             ++states_[out_.states[base_ + i]];
-        }
+        if (!out_.found.empty())
+            std::transform(found_.begin(), found_.end(), out_.found.begin() + std::ptrdiff_t(base_),
+                           [](std::uint8_t n) { return std::uint8_t(n > 0); });
     }
 
     // Adds the counts of all blocks that were baked.
@@ -103,6 +105,22 @@ private:
     }
     void mark(std::size_t texel, int flag) { out_.states[texel] = std::uint8_t(out_.states[texel] | flag); }
 
+    // Makes values of the sums of a map, and puts them into it.
+    void finish(std::size_t m, int firstRow)
+    {
+        std::vector<glm::vec3>& values = sums_[m];
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (found_[i] > 0)
+                values[i] = kinds_[m] == BakeKind::id
+                    ? glm::vec3(mostFrequent({&ids_[i * samplesPerTexel()], found_[i]}), 0, 1)
+                    : texelValue(kinds_[m], values[i], found_[i]);
+        if (!stores_[m])
+            std::copy(values.begin(), values.end(), maps_[m].values.begin() + std::ptrdiff_t(base_));
+        const auto width = std::size_t(out_.width);
+        for (std::size_t i = 0; stores_[m] && i < values.size(); i += width)
+            stores_[m](firstRow + int(i / width), {&values[i], width}, maps_[m].image);
+    }
+
     void bakePacket(std::span<const glm::ivec2> rasterTexels, std::span<const UvSample> samples)
     {
         Traced& traced = traced_[packet_ % traced_.size()];
@@ -116,29 +134,36 @@ private:
             rays_ += baker_.lookOut(probes, hits, rasterTexels, around_);
         if (looksIn_)
             rays_ += baker_.lookIn(probes, hits, rasterTexels, around_);
+        if (readsMaterials_)
+            options_.highMaterials->read(hits, materials_);
         for (std::size_t m = 0; m < kinds_.size(); ++m)
-            baker_.valuesOf(kinds_[m], points_, probes, hits, around_, values_[m]);
+            baker_.valuesOf(kinds_[m], points_, probes, hits, around_, materials_, values_[m]);
         Lanes<int> further{};
         rays_ += baker_.findFurther(probes, hits, further);
         checkForNearer();
+        std::array<std::size_t, kLanes> texels, before; // of the block; samples that were found in them
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const std::size_t texel = texelOf(rasterTexels[i]);
+            texels[i] = texel - base_;
             int flags = samples[i].covers ? texelCovered : texelTouched;
-            if (hits.found(i)) {
-                const std::size_t before = found_[texel - base_]++;
-                for (std::size_t m = 0; m < kinds_.size(); ++m) {
-                    const glm::vec3 value = values_[m].at(i);
-                    sums_[m][texel - base_] += value;
-                    if (kinds_[m] == BakeKind::id)
-                        ids_[(texel - base_) * samplesPerTexel() + before] = value.x;
-                    if (kinds_[m] == BakeKind::normal && value.z < 0)
-                        flags |= texelNegative;
-                }
-            } else {
+            if (hits.found(i))
+                before[i] = found_[texels[i]]++;
+            else
                 flags |= further[i] ? texelMissed | texelFurther : texelMissed;
-            }
             mark(texel, flags);
         }
+        for (std::size_t m = 0; m < kinds_.size(); ++m)
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                if (!hits.found(i))
+                    continue;
+                const glm::vec3 value = values_[m].at(i);
+                if (kinds_[m] == BakeKind::id)
+                    ids_[texels[i] * samplesPerTexel() + before[i]] = value.x;
+                else
+                    sums_[m][texels[i]] += value;
+                if (kinds_[m] == BakeKind::normal && value.z < 0)
+                    mark(base_ + texels[i], texelNegative);
+            }
     }
 
     // Marks texels for which another surface is nearer. A check costs a ray, so only some packets are checked: those
@@ -196,6 +221,7 @@ private:
     const UvRaster& raster_;
     const BakeOptions& options_;
     const std::vector<BakeKind>& kinds_;
+    const std::vector<StoreRow>& stores_; // of the maps that get images
     std::vector<Baked>& maps_;
     Baked& out_; // the first
     UvFirsts samples_;
@@ -207,8 +233,9 @@ private:
     std::array<Traced, 4> traced_; // the most recent packets
     std::size_t packet_ = 0;       // number of packets of the block so far
     bool suspicious_ = false;      // the last check was positive
-    bool looksOut_ = false, looksIn_ = false, hasIds_ = false;
+    bool looksOut_ = false, looksIn_ = false, hasIds_ = false, readsMaterials_ = false;
     Around around_;
+    MaterialValues materials_;
     int shift_;                  // from the raster's texels to the map's
     std::vector<Lanes3> values_; // of each map
     std::size_t rays_ = 0;
@@ -274,7 +301,8 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
 }
 
 Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& high, const BakeOptions& given,
-                                    const std::vector<BakeKind>& kinds, const Progress& progress)
+                                    const std::vector<BakeKind>& kinds, const Progress& progress,
+                                    const std::vector<std::optional<StoredAs>>& images)
 {
     BakeOptions options = given;
     if (std::ranges::find(kinds, BakeKind::curvature) != kinds.end() && !high.isCurved())
@@ -297,28 +325,33 @@ Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& hi
     COTAN_CHECK(measureRayStarts(low, high, options));
     const auto start = std::chrono::steady_clock::now();
     const std::size_t texels = std::size_t(options.width) * std::size_t(options.height);
-    std::vector<Baked> maps;
-    for (std::size_t m = 0; m < kinds.size(); ++m)
-        maps.push_back({options.width,
-                        options.height,
-                        std::vector(texels, glm::vec3(0)),
-                        std::vector<std::uint8_t>(m == 0 ? texels : 0),
-                        {},
-                        high.box(),
-                        0});
-    Baked& out = maps.front();
     const glm::ivec2 size(options.width * options.samples, options.height * options.samples);
     const Result<std::vector<std::uint32_t>> indices = indicesToDraw(low, size);
     if (!indices)
         return inputError("low: " + indices.error().message);
     const UvRaster raster({low.texcoords, *indices}, size.x, size.y, options.tile);
     const Baker baker(low, high, options);
+    std::vector<Baked> maps(kinds.size(), {options.width, options.height, {}, {}, {}, high.box()});
+    std::vector<StoreRow> stores(kinds.size());
+    Baked& out = maps.front();
+    out.states.resize(texels);
+    parallelFor(std::size_t(0), kinds.size(), [&](std::size_t m) {
+        maps[m].unit = baker.unitOf(kinds[m]);
+        if (m >= images.size() || !images[m]) {
+            maps[m].values.resize(texels);
+            return;
+        }
+        stores[m] = rowStore(maps[m], kinds[m], *images[m]);
+        maps[m].image = makeImage(options.width, options.height, images[m]->type);
+    });
+    if (std::ranges::any_of(stores, [](const StoreRow& store) { return bool(store); }))
+        out.found.resize(texels);
     std::mutex counting;
     CountedSteps done(progress, std::size_t(options.height)); // counts rows
     withThreads(options.threads, [&] {
         const int rows = UvRaster::kBlockRows / options.samples; // rows of texels per block of samples
         parallelRanges(0, raster.blocks(), 1, [&](int begin, int end) {
-            BlockBaker baking(low, baker, raster, options, kinds, maps);
+            BlockBaker baking(low, baker, raster, options, kinds, stores, maps);
             for (int block = begin; block != end && !done.stopped(); ++block) {
                 const int first = block * rows, last = std::min(first + rows, options.height);
                 baking.bake(block, first, last);
@@ -336,13 +369,8 @@ Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& hi
     s.rayDistance = baker.distance();
     s.rayStart = options.starts ? options.starts->farthest : 0;
     s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (std::size_t m = 0; m < kinds.size(); ++m) {
-        maps[m].unit = baker.unitOf(kinds[m]);
-        if (m == 0)
-            continue;
-        maps[m].states = out.states;
+    for (std::size_t m = 1; m < kinds.size(); ++m)
         maps[m].statistics = s;
-    }
     return maps;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,10 +27,18 @@ namespace cotan {
 struct Baked {
     int width = 0, height = 0;
     std::vector<glm::vec3> values;
-    std::vector<std::uint8_t> states;
+    std::vector<std::uint8_t> states; // of the first map of a bake; empty in others
     BakeStatistics statistics;
-    Bounds box = {}; // of the high surface
-    float unit = 0;  // curvature: radius, thickness: length, which is stored as 1
+    Bounds box = {};                      // of the high surface
+    float unit = 0;                       // curvature: radius, thickness: length, which is stored as 1
+    Image image = {};                     // instead of the values: the map as storeBaked would store it
+    std::vector<std::uint8_t> found = {}; // of the first map, if any has an image: per texel, 1 with a value
+
+    // Whether texel i has a value. first: the first map of the bake.
+    bool hasValue(const Baked& first, std::size_t i) const
+    {
+        return values.empty() ? first.found[i] != 0 : values[i] != glm::vec3(0);
+    }
 };
 
 // Whether the values of a kind are 1 plus a linear colour.
@@ -41,9 +51,11 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
                    const Progress& progress = {});
 
 // The same for several kinds, of which options.kind need not be one: rays that find the high surface are traced once.
-// Each map is what bake() gives for its kind, to the byte; but texelNegative is set in all of them.
+// Each map is what bake() gives for its kind, to the byte. images: how each map is stored that gets Baked::image, which
+// takes less memory and time; empty: none. Not for directions, dithered maps and heights in integers.
 Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
-                                    const std::vector<BakeKind>& kinds, const Progress& progress = {});
+                                    const std::vector<BakeKind>& kinds, const Progress& progress = {},
+                                    const std::vector<std::optional<StoredAs>>& images = {});
 
 // Vertex indices of the triangles to rasterise with UvRaster::firsts for an image of that size. Errors:
 // ErrorKind::input if triangles overlap in too many rows of texels.
@@ -72,7 +84,12 @@ Convention storedFormat(BakeKind kind, Convention format);
 // scalars as grey. Texels without a value become flat normals or zero.
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as);
 
-// The channels of a packed map as one image, each as storeBaked stores its kind. maps: of these kinds.
+// Stores rows of values of one map. baked: its size, box and unit, and for heights in integers its values.
+using StoreRow = std::function<void(int y, std::span<const glm::vec3> values, Image& image)>;
+StoreRow rowStore(const Baked& baked, BakeKind kind, const StoredAs& as);
+
+// The channels of a packed map as one image, each as storeBaked stores its kind. maps: of these kinds; images in them
+// have the type of `as`.
 Image packMaps(const std::vector<Baked>& maps, const std::vector<BakeKind>& kinds, const PackedMap& packed,
                const StoredAs& as);
 

@@ -214,7 +214,7 @@ float Baker::unitOf(BakeKind kind) const
 }
 
 void Baker::valuesOf(BakeKind kind, const LowPoints& points, const Probes& probes, const Hits& hits,
-                     const Around& around, Lanes3& values) const
+                     const Around& around, const MaterialValues& materials, Lanes3& values) const
 {
     const auto setAll = [&](const auto& valueOf) {
         for (std::size_t i = 0; i < kLanes; ++i)
@@ -246,19 +246,12 @@ void Baker::valuesOf(BakeKind kind, const LowPoints& points, const Probes& probe
         });
         break;
     }
-    case BakeKind::baseColor:
-    case BakeKind::emissive:
-    case BakeKind::roughness:
-    case BakeKind::metallic:
-    case BakeKind::roughnessMetallic:
-    case BakeKind::id: {
-        const float offset = holdsColors(kind) ? 1 : 0;
-        setAll([&](std::size_t i) {
-            return options_.highMaterials && hits.found(i) ? offset + options_.highMaterials->valueAt(kind, hits, i)
-                                                           : glm::vec3(0);
-        });
-        break;
-    }
+    case BakeKind::baseColor: setAll([&](std::size_t i) { return 1.0f + materials.baseColor.at(i); }); break;
+    case BakeKind::emissive: setAll([&](std::size_t i) { return 1.0f + materials.emissive.at(i); }); break;
+    case BakeKind::roughness: setAll([&](std::size_t i) { return glm::vec3(materials.surface.y[i], 0, 1); }); break;
+    case BakeKind::metallic: setAll([&](std::size_t i) { return glm::vec3(materials.surface.z[i], 0, 1); }); break;
+    case BakeKind::roughnessMetallic: values = materials.surface; break;
+    case BakeKind::id: setAll([&](std::size_t i) { return glm::vec3(materials.id[i], 0, 1); }); break;
     }
 }
 

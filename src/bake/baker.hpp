@@ -38,9 +38,10 @@ public:
     // And those into the surface, for thickness.
     std::size_t lookIn(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
                        Around& around) const;
-    // Computes the value that a map of a kind stores for each hit. around: set by the functions above, if it is read.
+    // Computes the value that a map of a kind stores for each hit. around: set by the functions above, if it is read;
+    // materials: by HighMaterials::read, if the kind reads them.
     void valuesOf(BakeKind kind, const LowPoints& points, const Probes& probes, const Hits& hits, const Around& around,
-                  Lanes3& values) const;
+                  const MaterialValues& materials, Lanes3& values) const;
     float unitOf(BakeKind kind) const; // Baked::unit
 
 private:

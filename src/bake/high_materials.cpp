@@ -25,36 +25,32 @@ namespace {
 
 float linearOf(float srgb) { return f32::cotan_srgb_to_linear(srgb); }
 
-const std::array<float, 256>& linearBytes()
+// What bytes stand for.
+template<class Value> std::array<float, 256> bytesAs(const Value& value)
 {
-    static const std::array<float, 256> all = [] {
-        std::array<float, 256> values{};
-        for (std::size_t i = 0; i < values.size(); ++i)
-            values[i] = linearOf(float(i) / 255);
-        return values;
-    }();
-    return all;
+    std::array<float, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = value(i);
+    return values;
 }
+const std::array<float, 256> kLinearBytes = bytesAs([](std::size_t i) { return linearOf(float(i) / 255); });
+const std::array<float, 256> kFractionBytes = bytesAs([](std::size_t i) { return float(i) * (1.0f / 255); });
 
 // Numbers of floats: negative ones and those that are none become 0.
-glm::vec4 finite(glm::vec4 c)
+glm::vec3 finite(glm::vec3 c)
 {
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 3; ++k)
         c[k] = c[k] > 0 ? std::min(c[k], 1e30f) : 0.0f;
     return c;
 }
 
-glm::vec4 linearComponents(const Image& image, int x, int y)
+// The red, green and blue of a texel; of a colour in linear light.
+glm::vec3 componentsOf(const Image& image, bool isColor, int x, int y)
 {
-    const glm::vec4 c = storedComponents(image, x, y);
+    const glm::vec3 c(storedComponents(image, x, y));
     if (image.type == PixelType::float32) // is linear
         return finite(c);
-    if (image.type == PixelType::unorm16)
-        return {linearOf(c.x), linearOf(c.y), linearOf(c.z), c.w};
-    return atTexel(image, x, y, [&](const auto* level, int) {
-        const auto of = [&](int k) { return linearBytes()[std::size_t(level[k]) & 255]; };
-        return glm::vec4(of(0), of(1), of(2), c.w);
-    });
+    return isColor ? glm::vec3(linearOf(c.x), linearOf(c.y), linearOf(c.z)) : c;
 }
 
 std::uint32_t srgbBytes(glm::vec3 linear)
@@ -86,7 +82,7 @@ std::uint32_t idColor(std::uint32_t n)
 
 glm::vec3 linearColor(std::uint32_t color)
 {
-    const auto of = [&](int shift) { return linearBytes()[color >> shift & 255u]; };
+    const auto of = [&](int shift) { return kLinearBytes[color >> shift & 255u]; };
     return {of(16), of(8), of(0)};
 }
 
@@ -204,11 +200,11 @@ Result<HighMaterials> HighMaterials::make(std::vector<Scene>& scenes, const High
     return all;
 }
 
-// The linear components of a map; 1 without.
-glm::vec4 HighMaterials::texelAt(const Map& map, const Part& part, const Corners& at) const
+// The red, green and blue of a map, of colours in linear light; 1 without.
+glm::vec3 HighMaterials::texelAt(const Map& map, const Part& part, const Corners& at) const
 {
     if (!map.image)
-        return glm::vec4(1);
+        return glm::vec3(1);
     const std::vector<glm::vec2>& all = part.attributes->uv[uvSetOf(map.texture)];
     const auto corner = [&](std::size_t k) { return glm::dvec2(all[at.vertex[k]]); };
     const glm::dvec2 raw =
@@ -219,38 +215,40 @@ glm::vec4 HighMaterials::texelAt(const Map& map, const Part& part, const Corners
     };
     const glm::dvec2 uv(row(map.texture.uRow), row(map.texture.vRow));
     const Image& image = *map.image;
-    const auto texel = [&](int x, int y) {
-        return map.isColor ? linearComponents(image, x, y) : finite(storedComponents(image, x, y));
-    };
     const Sampler& sampler = map.texture.sampler;
-    return sampler.magnify == Filter::linear ? bilinearTexel(image.width, image.height, sampler, uv, texel)
-                                             : nearestTexel(image.width, image.height, sampler, uv, texel);
+    const auto read = [&](const auto& texel) {
+        return sampler.magnify == Filter::linear ? bilinearTexel(image.width, image.height, sampler, uv, texel)
+                                                 : nearestTexel(image.width, image.height, sampler, uv, texel);
+    };
+    if (image.type != PixelType::unorm8)
+        return read([&](int x, int y) { return componentsOf(image, map.isColor, x, y); });
+    const std::array<float, 256>& values = map.isColor ? kLinearBytes : kFractionBytes;
+    return read([&](int x, int y) {
+        const std::uint8_t* const c = image.bytes8() + 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+        return glm::vec3(values[c[0]], values[c[1]], values[c[2]]);
+    });
 }
 
-glm::vec3 HighMaterials::valueAt(BakeKind kind, const Hits& hits, std::size_t lane) const
+void HighMaterials::read(const Hits& hits, MaterialValues& values) const
 {
-    const Part& part = parts_[hits.instance[lane]];
-    const Corners at{&part.indices[3 * std::size_t(hits.triangle[lane])], hits.b1[lane], hits.b2[lane]};
-    const std::vector<glm::vec4>& colors = part.attributes->colors;
-    if (kind == BakeKind::baseColor) {
-        const glm::vec3 base = part.baseColor * glm::vec3(texelAt(part.baseColorMap, part, at));
-        return colors.empty() ? base : base * glm::vec3(atVertices(colors.data(), at.vertex, at.b1, at.b2));
-    }
-    if (kind == BakeKind::emissive)
-        return part.emissive * glm::vec3(texelAt(part.emissiveMap, part, at));
-    if (kind == BakeKind::id) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if (!hits.found(lane))
+            continue;
+        const Part& part = parts_[hits.instance[lane]];
+        const Corners at{&part.indices[3 * std::size_t(hits.triangle[lane])], hits.b1[lane], hits.b2[lane]};
+        const std::vector<glm::vec4>& colors = part.attributes->colors;
+        const glm::vec3 base = part.baseColor * texelAt(part.baseColorMap, part, at);
+        values.baseColor.set(
+            lane, colors.empty() ? base : base * glm::vec3(atVertices(colors.data(), at.vertex, at.b1, at.b2)));
+        values.emissive.set(lane, part.emissive * texelAt(part.emissiveMap, part, at));
+        const glm::vec3 surface = texelAt(part.surfaceMap, part, at);
+        values.surface.set(lane, {1, part.roughness * surface.y, part.metallic * surface.z});
         const float b0 = 1 - at.b1 - at.b2;
         const std::size_t nearest = b0 >= at.b1 && b0 >= at.b2 ? 0 : at.b1 >= at.b2 ? 1 : 2;
-        return glm::vec3(float(idBy_ != IdBy::vertexColor ? part.id
-                                   : colors.empty()       ? 0xffffffu
-                                                          : srgbBytes(glm::vec3(colors[at.vertex[nearest]]))),
-                         0, 1);
+        values.id[lane] = float(idBy_ != IdBy::vertexColor ? part.id
+                                    : colors.empty()       ? 0xffffffu
+                                                           : srgbBytes(glm::vec3(colors[at.vertex[nearest]])));
     }
-    const glm::vec4 texel = texelAt(part.surfaceMap, part, at);
-    const float roughness = part.roughness * texel.y, metallic = part.metallic * texel.z;
-    return kind == BakeKind::roughness ? glm::vec3(roughness, 0, 1)
-        : kind == BakeKind::metallic   ? glm::vec3(metallic, 0, 1)
-                                       : glm::vec3(1, roughness, metallic);
 }
 
 } // namespace cotan

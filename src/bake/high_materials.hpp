@@ -21,6 +21,13 @@ std::uint32_t idColor(std::uint32_t n);
 // The linear colour of 0xrrggbb in sRGB.
 glm::vec3 linearColor(std::uint32_t color);
 
+// What the materials say at the hits of a packet; without meaning where nothing was hit, and for what no kind reads.
+struct MaterialValues {
+    Lanes3 baseColor, emissive; // linear
+    Lanes3 surface;             // (1, roughness, metallic)
+    Lanes<float> id{};          // 0xrrggbb
+};
+
 // Textures, uv, colours and names of all instances of some scenes.
 class HighMaterials {
 public:
@@ -30,9 +37,8 @@ public:
     static Result<HighMaterials> make(std::vector<Scene>& scenes, const HighSurface& surface,
                                       const std::vector<BakeKind>& kinds, IdBy idBy);
 
-    // The value of a kind of readsMaterials at a hit: a linear colour, (1, roughness, metallic), or a scalar or the
-    // 0xrrggbb of an id in x. Textures are filtered as their samplers say, in linear light.
-    glm::vec3 valueAt(BakeKind kind, const Hits& hits, std::size_t lane) const;
+    // Reads each texture once for all kinds. Textures are filtered as their samplers say, in linear light.
+    void read(const Hits& hits, MaterialValues& values) const;
 
     const std::vector<IdColor>& ids() const { return ids_; } // empty for vertex colours
 
@@ -57,7 +63,7 @@ private:
     struct Corners;
     struct Maker;
 
-    glm::vec4 texelAt(const Map& map, const Part& part, const Corners& at) const;
+    glm::vec3 texelAt(const Map& map, const Part& part, const Corners& at) const;
 
     std::deque<Image> images_; // deques, because parts_ points into them
     std::deque<Attributes> attributes_;

@@ -120,7 +120,7 @@ Marks disputes(const LowSurface& low, const Baker& baker, const std::vector<std:
                 pointsOf(low, pairs[k], points);
                 baker.aim(points, pairs[k], probes);
                 baker.find(pairs[k], probes, hits);
-                baker.valuesOf(inWorld ? BakeKind::objectNormal : BakeKind::normal, points, probes, hits, {},
+                baker.valuesOf(inWorld ? BakeKind::objectNormal : BakeKind::normal, points, probes, hits, {}, {},
                                normals[k]);
                 for (std::size_t i = 0; i < cells.size(); ++i)
                     found[k][i] = hits.found(i);
@@ -199,10 +199,8 @@ std::vector<BakeProblem> problemsOf(const LowSurface& low, const HighSurface& hi
     BakeStatistics& s = first.statistics;
     std::vector<BakeProblem> problems;
     const auto lacks = [&](std::size_t i, int flags) {
-        return (first.states[i] & (texelCovered | texelMissed | texelFurther)) == flags
-                && first.values[i] == glm::vec3(0)
-            ? 0.0f
-            : -1.0f;
+        const int state = first.states[i] & (texelCovered | texelMissed | texelFurther);
+        return state == flags && !first.hasValue(first, i) ? 0.0f : -1.0f;
     };
     if (s.missed > s.further)
         problems.push_back(problemOf(

@@ -85,15 +85,15 @@ inline int wrapTexel(std::int64_t i, int size, Wrap mode)
     return int(k < size ? k : 2 * std::int64_t(size) - 1 - k);
 }
 
-// The texel at uv in an image of `width` x `height`. texel(x, y): a glm::vec4. uv: at most kFarthestUv from zero.
-template<class Texel> glm::vec4 nearestTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
+// The texel at uv in an image of `width` x `height`. texel(x, y): a glm vector. uv: at most kFarthestUv from zero.
+template<class Texel> auto nearestTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
 {
     const auto x = std::int64_t(std::floor(uv.x * width)), y = std::int64_t(std::floor(uv.y * height));
     return texel(wrapTexel(x, width, s.wrapU), wrapTexel(y, height, s.wrapV));
 }
 
 // Bilinear interpolation of the four texels around uv. Texel centres are at half-integers.
-template<class Texel> glm::vec4 bilinearTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
+template<class Texel> auto bilinearTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
 {
     const double u = uv.x * width - 0.5, v = uv.y * height - 0.5;
     const double fu = std::floor(u), fv = std::floor(v);
@@ -101,8 +101,8 @@ template<class Texel> glm::vec4 bilinearTexel(int width, int height, const Sampl
     const int x0 = wrapTexel(x, width, s.wrapU), x1 = wrapTexel(x + 1, width, s.wrapU);
     const int y0 = wrapTexel(y, height, s.wrapV), y1 = wrapTexel(y + 1, height, s.wrapV);
     const float kx = float(u - fu), ky = float(v - fv);
-    const glm::vec4 top = glm::mix(texel(x0, y0), texel(x1, y0), kx);
-    const glm::vec4 bottom = glm::mix(texel(x0, y1), texel(x1, y1), kx);
+    const auto top = glm::mix(texel(x0, y0), texel(x1, y0), kx);
+    const auto bottom = glm::mix(texel(x0, y1), texel(x1, y1), kx);
     return glm::mix(top, bottom, ky);
 }
 

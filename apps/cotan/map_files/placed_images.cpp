@@ -1,7 +1,9 @@
 #include "placed_images.hpp"
 
+#include <optional>
 #include <utility>
 
+#include "core/loops.hpp"
 #include "core/try.hpp"
 #include "image/pending.hpp"
 
@@ -9,10 +11,14 @@ namespace cotan::app {
 
 Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images)
 {
+    std::vector<std::optional<Result<OutputFile>>> outputs(images.size());
+    parallelFor(std::size_t(0), images.size(),
+                [&](std::size_t i) { outputs[i].emplace(writePending(images[i].file, *images[i].image)); });
     std::vector<OutputFile> pending;
-    for (const auto& [file, image] : images) {
-        COTAN_TRY(output, writePending(file, *image));
-        pending.push_back(std::move(*output));
+    for (std::optional<Result<OutputFile>>& output : outputs) {
+        if (!*output)
+            return output->error();
+        pending.push_back(std::move(**output));
     }
     return pending;
 }
