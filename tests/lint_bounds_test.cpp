@@ -210,9 +210,9 @@ TEST(Recommend, firstOfEqualWorstPrimitivesIsNamed)
     const auto said = [](const std::string& name, const char* figures) {
         return "The largest error is in " + name + ": " + figures + " on 5 % of its area.";
     };
-    EXPECT_EQ(worst({judgedAs("a", 0.5, 2), judgedAs("b", 0.1, 0.2)}), "");
-    EXPECT_EQ(worst({judgedAs("a", 0.5 * kJustOver, 1), judgedAs("b", 0.1, 0.2)}),
-              said("a", "0.50 degrees on average, over 1.0"));
+    EXPECT_EQ(worst({judgedAs("a", 0.3, 3), judgedAs("b", 0.1, 0.2)}), "");
+    EXPECT_EQ(worst({judgedAs("a", 0.3 * kJustOver, 1), judgedAs("b", 0.1, 0.2)}),
+              said("a", "0.30 degrees on average, over 1.0"));
     EXPECT_EQ(worst({judgedAs("a", 0.75, 1), judgedAs("b", 0.75, 3)}), said("a", "0.75 degrees on average, over 1.0"));
     PrimitiveLint unnamed = judgedAs("", 3, 8.25);
     EXPECT_EQ(worst({judgedAs("a", 2, 4), unnamed}), said("a primitive", "3.00 degrees on average, over 8.2"));

@@ -129,12 +129,32 @@ TEST(Recommend, unmeasuredPrimitiveDoesNotDiluteTheOthers)
 
 TEST(Recommend, visibilityHasThreeLevels)
 {
-    EXPECT_TRUE(says(advisedOn({judgedAs(0.4, 1)}).seen, "the difference is invisible"));
-    EXPECT_TRUE(says(advisedOn({judgedAs(0.6, 1)}).seen, "moving highlights"));
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.3, 1)}).seen, "the difference is invisible"));
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.31, 1)}).seen, "moving highlights"));
     EXPECT_TRUE(says(advisedOn({judgedAs(4.9, 9)}).seen, "moving highlights"));
     EXPECT_TRUE(says(advisedOn({judgedAs(5.1, 9)}).seen, "from elsewhere"));
     EXPECT_TRUE(says(advisedOn({judgedAs(5.1, 9)}).seen,
                      "5.10 degrees on average with the frame orthonormal (7.25 with cotangent)"));
+}
+
+// As for the choice of the frame, which measures at other points than the readings.
+TEST(Recommend, whatIsInvisibleIsWhatTheChoiceOfTheFrameAllows)
+{
+    const auto seenAt = [](double mean, double percentile99, Frame chosen, double reading) {
+        FrameDecision d = readWith(0, chosen);
+        d.candidates = {{Frame::orthonormal, TangentOrigin::generated, 100, mean, 0.2, percentile99, 9}};
+        return advisedOn({judgedAs(reading, 1)}, {fitAs(9)}, {}, {d});
+    };
+    const LintReport within = seenAt(0.29, 2.9, Frame::orthonormal, 0.32);
+    EXPECT_TRUE(says(within.seen, "the difference is invisible: the error is 0.32")) << within.seen;
+    EXPECT_TRUE(says(within.advised, "read the maps with orthonormal")) << within.advised;
+    EXPECT_EQ(within.worst, "");
+    for (const auto& [mean, percentile99] : {std::pair(0.31, 2.9), {0.29, 3.1}}) {
+        const LintReport over = seenAt(mean, percentile99, Frame::mikktspace, 0.28);
+        EXPECT_TRUE(says(over.seen, "moving highlights show a difference")) << over.seen;
+        EXPECT_TRUE(says(over.advised, "read the maps with mikktspace")) << over.advised;
+        EXPECT_TRUE(says(over.worst, "0.28 degrees on average")) << over.worst;
+    }
 }
 
 TEST(Recommend, worstVisiblePrimitiveIsNamed)
@@ -146,9 +166,9 @@ TEST(Recommend, worstVisiblePrimitiveIsNamed)
     EXPECT_TRUE(says(advisedOn({a, b, c}).worst, "in second: 0.90 degrees on average, over 1.5 on 5 % of its area."));
     EXPECT_TRUE(says(advisedOn({b, a, c}).worst, "in second"));
     EXPECT_EQ(advisedOn({c}).worst, "");
-    b.readings[1].error = summaryAt(0.4, 2.1); // rarely, but by much
+    b.readings[1].error = summaryAt(0.2, 3.1); // rarely, but by much
     EXPECT_TRUE(says(advisedOn({b, c}).worst, "in second"));
-    b.readings[1].error = summaryAt(0.4, 1.9);
+    b.readings[1].error = summaryAt(0.2, 2.9);
     EXPECT_EQ(advisedOn({b, c}).worst, "");
 }
 

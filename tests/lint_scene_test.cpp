@@ -378,5 +378,27 @@ TEST(Lint, memoryIsAllSurfacesAndTheLargestConstruction)
         << refused.error().message;
 }
 
+// Frames differ by the more, the more a map tilts the normal.
+TEST(LintScene, whatItCallsInvisibleItAdvises)
+{
+    std::vector<bool> invisible;
+    for (double tilt = 1; tilt > 0.005; tilt *= 0.7) {
+        Scene scene;
+        scene.images = {constant({tilt * 0.4, tilt * 0.3, 1})};
+        scene.materials = {mapped(0)};
+        scene.meshes = {makeSphere(1, 12)};
+        scene.meshes[0].material = 0;
+        scene.instances = {{"", 0, glm::mat4(1)}};
+        const LintReport report = lintScene(scene);
+        ASSERT_EQ(report.decisions.size(), 1u);
+        invisible.push_back(report.seen.find("invisible") != std::string::npos);
+        EXPECT_EQ(invisible.back(), report.decisions[0].frame == Frame::orthonormal)
+            << "tilt " << tilt << ": " << report.recommendation;
+        EXPECT_EQ(report.worst.empty(), invisible.back());
+    }
+    EXPECT_FALSE(invisible.front());
+    EXPECT_TRUE(invisible.back());
+}
+
 } // namespace
 } // namespace cotan

@@ -218,7 +218,7 @@ void addLintCommand(Arguments& tool)
                                    {"lint",
                                     "Check a model: the error of its normal maps without stored tangents, in degrees.",
                                     "",
-                                    {"cotan lint model.glb", "cotan lint model.glb --limit 2",
+                                    {"cotan lint model.glb", "cotan lint model.glb --limit 3",
                                      "cotan lint model.glb --distance 3 --json report.json"}},
                                    declare, run);
 }

@@ -39,8 +39,6 @@ namespace lint {
 
 namespace {
 
-// Degrees: differences below are invisible, those above show in moving highlights.
-constexpr double kUnseenMean = 0.5, kUnseen95 = 2;
 // Degrees: from this mean on the light seems to come from elsewhere, even without motion.
 constexpr double kWrongMean = 5;
 constexpr std::size_t kMaxNames = 3; // per sentence
@@ -214,15 +212,27 @@ std::string notJudged(const LintReport& report)
     return names.empty() ? "" : fmt::format("The normal map could not be judged in {}.", listed(names));
 }
 
-// The primitive with the largest mean error of reading with orthonormal among those on which it is visible, by the
-// limits that `cotan lint --limit 2` checks; null if there is none.
+// Whether reading a primitive with orthonormal shows a difference in moving highlights. The limit is the one by which
+// frames are chosen, and so is the measurement: what is called invisible is also what is advised. Without it, as of
+// maps whose pixels were not read, `error` is compared.
+bool isVisible(const LintReport& report, const PrimitiveLint& p, const ValueSummary& error)
+{
+    constexpr ChoiceLimits kUnseen;
+    if (p.meshIndex < report.decisions.size())
+        for (const FrameCandidate& c : report.decisions[p.meshIndex].candidates)
+            if (c.frame == Frame::orthonormal && c.points > 0)
+                return !c.within(kUnseen);
+    return error.mean > kUnseen.mean || error.percentile95 > kUnseen.percentile99;
+}
+
+// The primitive with the largest mean error of reading with orthonormal among those on which it is visible; null if
+// there is none.
 const PrimitiveLint* worstReading(const LintReport& report)
 {
     const PrimitiveLint* worst = nullptr;
     for (const PrimitiveLint& p : report.primitives)
-        if (const ValueSummary* const error = errorOf(p, "orthonormal"); error
-            && (error->mean > kUnseenMean || error->percentile95 > kUnseen95)
-            && (!worst || error->mean > errorOf(*worst, "orthonormal")->mean))
+        if (const ValueSummary* const error = errorOf(p, "orthonormal");
+            error && isVisible(report, p, *error) && (!worst || error->mean > errorOf(*worst, "orthonormal")->mean))
             worst = &p;
     return worst;
 }
