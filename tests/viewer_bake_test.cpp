@@ -162,6 +162,33 @@ TEST(ViewerHighModel, isReadBesideTheModelAndABadFileChangesNothing)
     EXPECT_FALSE(showsHigh(s, true));
 }
 
+TEST(ViewerHighModel, itsUpAxisIsTheModelsUnlessAnotherIsGiven)
+{
+    HeadlessSession at;
+    writeSquare(at.folder / "low.obj", 0);
+    writeSquare(at.folder / "high.obj", 0.25);
+    State& s = at.state();
+    const auto facing = [&](Up up, std::optional<Up> highUp) { // the axes along which both squares are thin
+        s.picture.up = up;
+        s.highUp = highUp;
+        at.load(at.in("low.obj"));
+        EXPECT_TRUE(at.ask(request::LoadHigh{{at.in("high.obj")}}));
+        at.work([&] { return !at.parts.loader.busy(); });
+        std::string axes;
+        for (const Bounds& box : {s.model->box, s.highModel->box})
+            axes += box.high.y - box.low.y == 0 ? "y" : box.high.z - box.low.z == 0 ? "z" : "-";
+        return axes;
+    };
+    EXPECT_EQ(facing(Up::y, std::nullopt), "zz");
+    EXPECT_EQ(facing(Up::z, std::nullopt), "yy");
+    EXPECT_EQ(facing(Up::z, Up::y), "yz");
+    EXPECT_EQ(optionsOf(s, true).up, Up::y);
+    EXPECT_EQ(optionsOf(s, false).up, Up::z);
+    EXPECT_NE(commandLine(s, "a.png", {7, 5}).find(" --high-up y "), std::string::npos);
+    EXPECT_EQ(facing(Up::y, Up::z), "zy");
+    EXPECT_EQ(s.highModel->box.high.y, 0.25f);
+}
+
 // The state of a model with its detail.
 State withHigh()
 {

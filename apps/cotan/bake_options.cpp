@@ -265,7 +265,7 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
            "bake each low mesh NAME_low from its high meshes NAME_high, NAME_high_a only; NAME_low.001 from "
            "NAME_high.001");
     addUpOption(a, o.job.up, "the files");
-    a.choice("--high-up", o.highUp, kUps, "the same for the high mesh only, where it differs: y or z");
+    addHighUpOption(a, o.highUp);
     a.option("--object", o.job.object, "bake this object of the low mesh only: the name of its node, else of its mesh")
         .in("TEXT");
     a.flag("--per-object", o.job.perObject,

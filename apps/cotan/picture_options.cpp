@@ -83,6 +83,12 @@ void addUpOption(Arguments& a, Up& up, const std::string& what)
     a.choice("--up", up, kUps, upHelp(what)).under(HelpGroup::input);
 }
 
+void addHighUpOption(Arguments& a, std::optional<Up>& up)
+{
+    a.choice("--high-up", up, kUps, "the same for the high mesh only, where it differs: y or z")
+        .under(HelpGroup::input);
+}
+
 void addTangentsOption(Arguments& a, TangentOrigin& tangents, const std::string& help)
 {
     a.choice("--tangents", tangents, kTangentOrigins, help).under(HelpGroup::frame);

@@ -1,6 +1,7 @@
 // Declares the options of the table picture/option_table.hpp on the command line, all of them or single ones.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cotan/picture.hpp"
@@ -20,6 +21,8 @@ void addMemoryOption(Arguments& a, int& memory, const std::string& also = "");
 
 // Adds --up, y or z. what: whose up axis it is.
 void addUpOption(Arguments& a, Up& up, const std::string& what = "the model's file");
+// Adds --high-up, the same for the high mesh.
+void addHighUpOption(Arguments& a, std::optional<Up>& up);
 
 // Adds --tangents, stored or generated.
 void addTangentsOption(Arguments& a, TangentOrigin& tangents, const std::string& help);

@@ -137,7 +137,9 @@ Status carryOut(Parts& parts, const request::Load& r)
 
 Status carryOut(Parts& parts, const request::LoadHigh& r)
 {
-    parts.loader.readHigh(parts.state.picture, r.files);
+    PictureOptions options = parts.state.picture;
+    options.up = highUpOf(parts.state);
+    parts.loader.readHigh(options, r.files);
     parts.state.loading = fileName(r.files.front());
     parts.state.progress = 0;
     return Done{};

@@ -71,6 +71,8 @@ const GltfAnimation* animationOf(const State& state)
     return parseNumber(std::string_view(wanted), number) && number < all.size() ? &all[number] : nullptr;
 }
 
+Up highUpOf(const State& state) { return state.highUp.value_or(state.picture.up); }
+
 bool showsHigh(const State& state, bool second) { return (second ? state.b : state.a).high && state.highModel; }
 
 Side sideOf(const State& state, bool second)
@@ -104,6 +106,7 @@ PictureOptions optionsOf(const State& state, bool second)
     if (side.high) {
         o.maps = {};
         o.model = state.high.front();
+        o.up = highUpOf(state);
         for (std::string* word : {&o.shape, &o.variant, &o.animation})
             word->clear();
         o.time = 0;
@@ -167,6 +170,8 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
     text += fmt::format(" --size {}x{}", size.x, size.y);
     for (std::size_t i = 0; views && i < state.high.size(); ++i)
         add("high", state.high[i]);
+    if (views && highUpOf(state) != state.picture.up)
+        add("high-up", wordOf(kUps, highUpOf(state)));
     if (views && state.compare != Compare::divider)
         add("do", state.compare == Compare::flip ? "flip" : "compare " + compareName(state.compare));
     if (compares)

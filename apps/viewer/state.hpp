@@ -117,6 +117,7 @@ struct State {
     std::shared_ptr<const Model> model;                   // null until the first one is read
     std::shared_ptr<const Model> highModel;               // the detailed model that `model` is baked from; null: none
     std::vector<std::string> high;                        // its files
+    std::optional<Up> highUp;                             // up axis of these files; none: that of the model
     std::optional<std::vector<ProblemArea>> problemAreas; // none: not searched yet
     std::optional<std::size_t> problemArea;               // the selected one, whose triangle is outlined
     std::vector<std::string> recent;                      // files, most recent first
@@ -155,6 +156,9 @@ const GltfAnimation* animationOf(const State& state);
 
 // Whether the first or the second image shows the detailed model.
 bool showsHigh(const State& state, bool second);
+
+// The up axis of the detailed model's files.
+Up highUpOf(const State& state);
 // How the first or the second image is drawn, and with which options; `show` is the view, in which detail is clay
 // beside a mask, which it has none of.
 Side sideOf(const State& state, bool second);

@@ -23,6 +23,7 @@ struct ViewCommandOptions : CommonOptions {
     std::string frame{kAutoFrame};
     std::string second;
     std::vector<std::string> commands, high;
+    std::optional<Up> highUp;
     std::string play, record;
     bool forget = false;
 };
@@ -56,6 +57,7 @@ Status run(const ViewCommandOptions& o)
     state.b = state.a;
     state.b.frame = o.second.empty() ? "mikktspace" : o.second;
     state.show = o.picture.show;
+    state.highUp = o.highUp;
     for (const auto& [option, frame] : {std::pair("--frame", state.a.frame), {"--second", state.b.frame}})
         if (const auto known = parseFrameChoice(frame, option); !known)
             return known.error();
@@ -101,6 +103,7 @@ void declare(app::Arguments& a, ViewCommandOptions& o)
         .in("FILE")
         .reads()
         .main();
+    addHighUpOption(a, o.highUp);
     a.group(HelpGroup::diagnostics);
     a.option("--do", o.commands, "a viewer command to run at the start, such as \"compare angle\"; may be repeated")
         .in("TEXT");
