@@ -85,8 +85,7 @@ void addUpOption(Arguments& a, Up& up, const std::string& what)
 
 void addHighUpOption(Arguments& a, std::optional<Up>& up)
 {
-    a.choice("--high-up", up, kUps, "the same for the high mesh only, where it differs: y or z")
-        .under(HelpGroup::input);
+    a.choice("--high-up", up, kUps, "up axis of the high mesh only, where it differs: y or z").under(HelpGroup::input);
 }
 
 void addTangentsOption(Arguments& a, TangentOrigin& tangents, const std::string& help)
