@@ -8,7 +8,7 @@ import sys
 ROOT = pathlib.Path(sys.argv[1])
 SRC = ROOT / "src"
 MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS = 13, 56, 30
-MOST_LINES = {"src": 55_260, "apps": 30_170}  # of C++; a commit that raises one says why
+MOST_LINES = {"src": 56_480, "apps": 30_360}  # of C++; a commit that raises one says why
 WITHOUT_HEADER = {"c"}  # its header is cotan.h
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.M)
 
@@ -58,6 +58,8 @@ def everySourceIsBuilt():
     count = 0
     for part in sorted(p for top in ("src", "apps") for p in (ROOT / top).iterdir() if p.is_dir()):
         text = "".join(p.read_text() for p in part.rglob("CMakeLists.txt"))
+        for name in re.findall(r"\b(\w+_)\$\{system\}\.cpp\b", text):  # a file for each system
+            text += f" {name}posix.cpp {name}windows.cpp"
         for file in part.rglob("*.cpp"):
             count += 1
             if not re.search(rf"\b{re.escape(file.stem)}\.cpp\b", text):

@@ -33,13 +33,18 @@ def only(pattern, instead, exceptions):
 
 def filesAreOpenedForWritingByOneFunction():
     """OutputFile::open. An OutputFile is made by begin(), which compares the file with all inputs."""
-    only(r'\bofstream|\bfstream\b(?!>)|\bfilebuf|\b(f|fre|fd)open\s*\((?!.*"rbe?"\))|\bO_(WRONLY|RDWR|CREAT|TRUNC|APPEND)\b|\bcreat(64)?\s*\('
+    only(r'\bofstream|\bfstream\b(?!>)|\bfilebuf|\b(f|fre|fd|_wf?)open\s*\((?!.*"rbe?"\))|\bopenStream\s*\((?!.*"rb"\))|\bO_(WRONLY|RDWR|CREAT|TRUNC|APPEND)\b|\bcreat(64)?\s*\('
          r"|\bmk(o?s)?temp\b|\btmpfile\s*\(|ImageOutput::create\(|\bjpeg_stdio_dest|\bf?truncate(64)?\s*\(|\bresize_file|\bcopy_file"
          r"|\bfs::copy\b|\bfilesystem::copy\b|\brename(at2?)?\s*\(|::(sym)?link(at)?\s*\(|\bcreate_(hard_link|symlink)|\boutput_file\s*\(|\bsendfile|\bsystem\s*\(|\bpopen\s*\(",
          "write through OutputFile (src/files/output.hpp)", [
-             ("src/files/output.cpp", '"w+be" : "wbe"', "the function"),
-             ("src/files/output.cpp", '"abe"', "a trial on the same temporary file, to learn why a library failed"),
-             ("src/files/output.cpp", "::rename(part_", "the temporary file appears under its name"),
+             ("src/files/output.cpp", '"w+b" : "wb"', "the function"),
+             ("src/files/system/system.hpp", "openStream(", "opens for it"),
+             ("src/files/system/system_posix.cpp", "openStream(", "likewise"),
+             ("src/files/system/system_posix.cpp", "std::fopen(file.c_str(), (", "likewise"),
+             ("src/files/system/system_windows.cpp", "openStream(", "likewise"),
+             ("src/files/system/system_windows.cpp", "::_wfopen(", "likewise"),
+             ("src/files/output.cpp", '"ab"', "a trial on the same temporary file, to learn why a library failed"),
+             ("src/files/output.cpp", "fs::rename(part_", "the temporary file appears under its name"),
              ("src/image/oiio_write.cpp", "ImageOutput::create(", "writes to a CheckedFile, which holds an opened OutputFile"),
              ("apps/cotan/batch/store.cpp", "kLock).c_str(), O_RDWR", "opens a lock in the store and writes nothing"),
              ("apps/lab/cost/in_child.cpp", '"/dev/null"', "silences a driver"),
@@ -48,11 +53,12 @@ def filesAreOpenedForWritingByOneFunction():
 
 
 def filesAreRemovedByTheirOwners():
-    only(r"\bunlink(at)?\s*\(|\bremove(_all)?\s*\(.*(path|file|work|part)|\brmdir\s*\(", "files that we have not made are not ours to remove", [
-        ("src/files/output.cpp", "::unlink(part_", "its own temporary file"),
-        ("src/files/output.cpp", "::unlink(path", "files that commitTogether has made"),
+    only(r"\bunlink(at)?\s*\(|\bDeleteFile[AW]?\s*\(|\bremove(_all)?\s*\(.*(path|file|work|part)|\brmdir\s*\(", "files that we have not made are not ours to remove", [
+        ("src/files/output.cpp", "fs::remove(part_", "its own temporary file"),
+        ("src/files/output.cpp", "fs::remove(path", "files that commitTogether has made"),
         ("src/files/output.cpp", "fs::remove(part", "temporary files of a process that has ended"),
-        ("src/files/interrupt.cpp", "::unlink(slot.name)", "temporary files, on a signal"),
+        ("src/files/system/signals_posix.cpp", "::unlink(file)", "temporary files, on a signal"),
+        ("src/files/system/signals_windows.cpp", "::DeleteFileW(file)", "likewise"),
         ("apps/cotan/batch/store.cpp", "fs::remove_all(", "folders of the store"),
         ("apps/cotan/batch/run.cpp", "fs::remove_all(at->work", "a folder of the store"),
     ])
@@ -60,11 +66,12 @@ def filesAreRemovedByTheirOwners():
 
 def filesAreReadByReadersThatNoteThem():
     """readFileBytes, usableFileSize and readText, which call noteInput: an output can only be compared with inputs that are noted."""
-    only(r'\bifstream|\bfopen\s*\(.*"rbe?"\)|\bO_RDONLY\b|\bopen\s*\([^)]*\.c_str\(\)\s*,\s*0\)|\bmmap\s*\(',
+    only(r'\bifstream|\b(fopen|openStream)\s*\(.*"rbe?"\)|\b_?O_RDONLY\b|\bopen\s*\([^)]*\.c_str\(\)\s*,\s*0\)|\bmmap\s*\(',
          "read through src/files/bytes.hpp", [
-             ("src/files/bytes.cpp", 'std::fopen(file.c_str(), "rb")', "the readers"),
-             ("src/image/image_parts.cpp", 'std::fopen(file.c_str(), "rb")', "openRows has called usableFileSize"),
-             ("src/files/sandbox/process.cpp", '"/dev/null"', "standard input of a child"),
+             ("src/files/bytes.cpp", 'openStream(file, "rb")', "the readers"),
+             ("src/image/image_parts.cpp", 'openStream(file, "rb")', "openRows has called usableFileSize"),
+             ("src/files/sandbox/child_windows.cpp", "_O_RDONLY", "the empty standard input of a child"),
+             ("src/files/sandbox/process_posix.cpp", '"/dev/null"', "standard input of a child"),
              ("apps/cotan/batch/digest.cpp", "O_RDONLY", "hashes files of jobs, which the batch has noted"),
              ("apps/lab/cost/price.cpp", '"/etc/os-release"', "the system's name"),
              ("src/core/large_array.hpp", "MAP_ANONYMOUS", "memory, not a file"),
@@ -75,7 +82,7 @@ def childProcessesAreAwaitedByOneFunction():
     """waitFor, which says when the system has discarded how a child ended."""
     only(r"\bwait(pid|id|3|4)\s*\(|(?<![\w.>])::wait\s*\(|SIGCHLD|SIGCLD", "wait by waitFor (src/files/children.hpp)", [
         ("src/files/children.hpp", "::wait4(", "the function"),
-        ("src/files/children.hpp", "::signal(SIGCHLD, SIG_DFL)", "undoes a parent's choice"),
+        ("src/files/system/program_posix.cpp", "::signal(SIGCHLD, SIG_DFL)", "undoes a parent's choice"),
     ])
 
 
@@ -92,7 +99,7 @@ def nothingDependsOnTheLocale():
              ("apps/viewer/window/glfw_window.cpp", "#include <clocale>", "the same"),
              ("src/scene/environment/store_studio.cpp", "std::fprintf(stderr", "a program of the build"),
              ("apps/lab/cost/machine_code.cpp", "strftime(", "digits only"),
-             ("apps/viewer/dialog.cpp", "stringstream folders(", texts),
+             ("apps/viewer/dialog_posix.cpp", "stringstream folders(", texts),
              ("apps/viewer/event.cpp", "stringstream lines(", texts),
              ("apps/viewer/memory.cpp", "stringstream lines(", texts),
              ("apps/viewer/memory.cpp", "stringstream words(", texts),

@@ -2,18 +2,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/resource.h>
+
+#include "files/system/system.hpp"
 
 namespace cotan::app {
 
 namespace {
 
-double peakMegabytes()
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return double(usage.ru_maxrss) / 1024;
-}
+double peakMegabytes() { return peakMemory() / (1 << 20); }
 
 Json describe(const BakeStatistics& s)
 {

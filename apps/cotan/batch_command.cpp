@@ -10,8 +10,8 @@
 #include "commands.hpp"
 #include "core/try.hpp"
 #include "files/file_registry.hpp"
-#include "files/machine_memory.hpp"
 #include "files/output.hpp"
+#include "files/system/system.hpp"
 #include "loading.hpp"
 
 namespace cotan::app {

@@ -1,16 +1,12 @@
 #include "program.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
-#include <filesystem>
 #include <new>
 #include <system_error>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #ifdef COTAN_WITH_BATCH
 #include "batch/child.hpp"
@@ -18,16 +14,14 @@
 #include "common.hpp"
 #include "cotan/files.hpp"
 #include "cotan/model.hpp"
-#include "files/children.hpp"
 #include "files/file_registry.hpp"
 #include "files/interrupt.hpp"
+#include "files/system/program.hpp"
 #include "terminal/printable.hpp"
 
 namespace cotan::app {
 
 namespace {
-
-char** programArguments = nullptr; // main's argv
 
 // Does not use fmt::print, which throws if standard error cannot be written.
 int fail(const Error& error)
@@ -50,29 +44,29 @@ int finish(const Status& status)
 
 Status startLab()
 {
-    std::error_code failed;
-    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
-    const std::filesystem::path lab = self.parent_path() / "cotan-lab";
-    if (!failed && programArguments)
-        ::execv(lab.c_str(), programArguments);
-    const std::string why = failed ? failed.message() : std::strerror(errno);
+    const std::filesystem::path self = programFile();
+    const std::filesystem::path lab = self.parent_path() / ("cotan-lab" + self.extension().string());
+    const std::string why = becomeProgram(lab);
     return unavailableError(fmt::format("{}: the program of this command cannot be started: {}", lab.string(), why));
 }
 
 int runProgram(int argc, char** argv, int (*commandLine)(std::vector<std::string>))
 {
-    programArguments = argv;
-    keepStatusOfChildren();
-    if (isReaderProcess(argc, argv))
+    const std::vector<std::string> words = beginProgram(argc, argv);
+    std::vector<const char*> pointers;
+    for (const std::string& word : words)
+        pointers.push_back(word.c_str());
+    const int count = int(words.size());
+    if (isReaderProcess(count, pointers.data()))
         return runReaderProcess();
-    sandboxByDefault({.program = "/proc/self/exe"});
+    sandboxByDefault({.program = sameProgram()});
     removePartsOnInterrupt();
     try {
 #ifdef COTAN_WITH_BATCH
-        if (isJobProcess(argc, argv))
-            return runJobProcess(argc, argv, commandLine);
+        if (isJobProcess(count, pointers.data()))
+            return runJobProcess(count, pointers.data(), commandLine);
 #endif
-        return commandLine({argv + std::min(argc, 1), argv + argc});
+        return commandLine({words.begin() + std::min(count, 1), words.end()});
     } catch (const std::bad_alloc&) {
         return fail({ErrorKind::unavailable, "not enough memory"});
     } catch (const std::system_error& e) { // also from starting threads

@@ -15,7 +15,7 @@
 #include "core/try.hpp"
 #include "cotan/covector.hpp"
 #include "cotan/maps.hpp"
-#include "files/machine_memory.hpp"
+#include "files/system/system.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"

@@ -10,6 +10,7 @@
 #include "core/try.hpp"
 #include "cotan/files.hpp"
 #include "files/file_registry.hpp"
+#include "files/system/system.hpp"
 
 namespace cotan {
 
@@ -50,7 +51,7 @@ Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit, bool
 Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t limit, bool isInput)
 {
     COTAN_TRY(size, usableFileSize(file, limit, isInput));
-    const OpenFile handle(std::fopen(file.c_str(), "rb"));
+    const OpenFile handle(openStream(file, "rb"));
     if (!handle)
         return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
     std::vector<std::byte> bytes(*size);
@@ -63,7 +64,7 @@ Result<std::string> readText(const fs::path& file, bool isInput, std::size_t lim
 {
     if (isInput)
         COTAN_CHECK(noteInput(file));
-    const OpenFile handle(std::fopen(file.c_str(), "rb"));
+    const OpenFile handle(openStream(file, "rb"));
     std::string text;
     char part[4096];
     for (std::size_t got; handle && text.size() <= limit && (got = std::fread(part, 1, sizeof part, handle.get())) > 0;)

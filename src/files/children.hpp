@@ -2,16 +2,11 @@
 #pragma once
 
 #include <cerrno>
-#include <csignal>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
 
 namespace cotan {
-
-// For programs, at their start: undoes the choice of a parent that ignores SIGCHLD, as daemons and some CI runners do.
-// The system would then discard how children ended, and `waitpid` would report nothing.
-inline void keepStatusOfChildren() { ::signal(SIGCHLD, SIG_DFL); }
 
 enum class Waited {
     running, // the process has not ended

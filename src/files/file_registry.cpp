@@ -8,7 +8,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <sys/stat.h>
+
+#include "files/system/system.hpp"
 
 namespace cotan {
 
@@ -20,20 +21,17 @@ namespace {
 struct Identity {
     fs::path path; // canonical as far as it exists
     bool exists = false;
-    dev_t device = 0; // if it exists
-    ino_t number = 0;
+    FileNumber number; // if it exists
 };
 
 // Returns nothing for pipes and devices, which are written to and not replaced.
 std::optional<Identity> identityOf(const fs::path& file)
 {
-    struct stat status {};
     Identity identity;
-    identity.exists = ::stat(file.c_str(), &status) == 0;
-    if (identity.exists && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+    const FileKind kind = fileNumber(file, identity.number);
+    if (kind == FileKind::special)
         return std::nullopt;
-    identity.device = status.st_dev;
-    identity.number = status.st_ino;
+    identity.exists = kind == FileKind::file;
     std::error_code error;
     identity.path = fs::weakly_canonical(fs::absolute(file, error), error);
     if (error || identity.path.empty()) // the working folder lies deeper than names may be long
@@ -62,15 +60,14 @@ public:
     {
         if (const auto found = byPath_.find(identity.path.string()); found != byPath_.end())
             return found->second;
-        const auto found = byNumber_.find({identity.device, identity.number});
+        const auto found = byNumber_.find(identity.number);
         return identity.exists && found != byNumber_.end() ? found->second : nullptr;
     }
     void add(Entry entry) { index(entries_.emplace_back(std::move(entry))); }
     // A new file has replaced the old one.
     void replace(Entry& entry, Identity identity)
     {
-        if (const auto old = byNumber_.find({entry.identity.device, entry.identity.number});
-            old != byNumber_.end() && old->second == &entry)
+        if (const auto old = byNumber_.find(entry.identity.number); old != byNumber_.end() && old->second == &entry)
             byNumber_.erase(old);
         entry.identity = std::move(identity);
         index(entry);
@@ -87,12 +84,12 @@ private:
     {
         byPath_.emplace(entry.identity.path.string(), &entry);
         if (entry.identity.exists)
-            byNumber_.emplace(std::pair(entry.identity.device, entry.identity.number), &entry);
+            byNumber_.emplace(entry.identity.number, &entry);
     }
 
     std::deque<Entry> entries_;
     std::unordered_map<std::string, Entry*> byPath_;
-    std::map<std::pair<dev_t, ino_t>, Entry*> byNumber_;
+    std::map<FileNumber, Entry*> byNumber_;
 };
 
 struct FileRegistry {

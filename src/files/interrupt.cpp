@@ -1,24 +1,22 @@
 #include "files/interrupt.hpp"
 
 #include <atomic>
-#include <csignal>
-#include <cstring>
 #include <utility>
 
-#include <unistd.h>
+#include "files/system/signals.hpp"
 
 namespace cotan {
 
 namespace {
 
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
+using Letter = std::filesystem::path::value_type;
 
 enum SlotState : int { slotFree, slotTaken, slotArmed };
 
 // Fixed size, since a signal handler may neither lock nor allocate. Pages that are never touched take no memory.
 struct Slot {
     std::atomic<int> state;
-    char name[4096];
+    Letter name[4096];
 };
 Slot slots[kMaxParts];
 
@@ -28,30 +26,22 @@ std::atomic<bool> ending = false;   // the program is ending by a signal: no mor
 
 static_assert(std::atomic<int>::is_always_lock_free);
 
-void unlinkParts()
+void removeSlots()
 {
     for (Slot& slot : slots)
         if (slot.state.load() == slotArmed)
-            ::unlink(slot.name);
+            removeInHandler(slot.name);
 }
 
 // Uses only what is allowed in a signal handler. Another thread may be about to open its unfinished file, hence the
 // wait and the second removal.
 void end(int signal)
 {
-    constexpr timespec kOpening{0, 5'000'000};
     ending = true;
-    unlinkParts();
-    ::nanosleep(&kOpening, nullptr);
-    unlinkParts();
-    struct sigaction action {};
-    action.sa_handler = SIG_DFL;
-    ::sigaction(signal, &action, nullptr);
-    sigset_t one;
-    sigemptyset(&one);
-    sigaddset(&one, signal);
-    ::pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
-    ::raise(signal);
+    removeSlots();
+    waitInHandler();
+    removeSlots();
+    endBySignal(signal);
 }
 
 void onSignal(int signal)
@@ -66,24 +56,10 @@ void onSignal(int signal)
 void blockWhileEnding()
 {
     while (ending)
-        ::pause();
+        waitInHandler();
 }
 
-void removePartsOnInterrupt()
-{
-    for (const int signal : kSignals) {
-        struct sigaction before {};
-        if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler == SIG_IGN)
-            continue;
-        struct sigaction action {};
-        action.sa_handler = onSignal;
-        action.sa_flags = SA_RESTART;
-        sigfillset(&action.sa_mask);
-        ::sigaction(signal, &action, nullptr);
-    }
-    ::signal(SIGPIPE, SIG_IGN);
-    ::signal(SIGXFSZ, SIG_IGN);
-}
+void removePartsOnInterrupt() { catchSignals(onSignal); }
 
 InterruptsHeld::InterruptsHeld() { ++holdCount; }
 
@@ -96,14 +72,16 @@ InterruptsHeld::~InterruptsHeld()
 
 GuardedPart::GuardedPart(const std::filesystem::path& file) : slot_(-1)
 {
+    constexpr std::size_t kMost = sizeof Slot::name / sizeof(Letter);
     blockWhileEnding();
-    if (file.empty() || file.native().size() >= sizeof Slot::name)
+    if (file.empty() || file.native().size() >= kMost)
         return;
     for (std::size_t i = 0; i < kMaxParts && slot_ < 0; ++i) {
         int expected = slotFree;
         if (!slots[i].state.compare_exchange_strong(expected, slotTaken))
             continue;
-        std::strcpy(slots[i].name, file.c_str());
+        file.native().copy(slots[i].name, file.native().size());
+        slots[i].name[file.native().size()] = 0;
         slots[i].state = slotArmed;
         slot_ = int(i);
     }

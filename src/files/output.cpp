@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -13,12 +12,11 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
+#include "files/system/system.hpp"
 
 namespace cotan {
 
@@ -28,17 +26,12 @@ namespace {
 
 constexpr std::string_view kPartStart = ".cotan-", kPartMark = ".part";
 
-// Eight hex digits that identify a PID namespace: a machine or a container. Several may share a folder.
+// Eight hex digits that identify a machine or a container. Several may share a folder.
 const std::string& machine()
 {
     static const std::string digits = [] {
-        char text[512] = "";
-        ::gethostname(text, 255);
-        const std::size_t length = std::string_view(text).size();
-        if (::readlink("/proc/self/ns/pid", text + length, sizeof text - length - 1) < 0) // other systems have none
-            text[length] = '\0';
         std::uint32_t hash = 2166136261; // FNV-1a
-        for (const char c : std::string_view(text))
+        for (const char c : machineName())
             hash = (hash ^ static_cast<unsigned char>(c)) * 16777619;
         return fmt::format("{:08x}", hash);
     }();
@@ -52,7 +45,7 @@ fs::path partBeside(const fs::path& file)
     static std::atomic<unsigned> counter{0};
     const std::string extension = file.extension().string();
     return folderOf(file)
-        / fmt::format("{}{}-{}-{}{}{}", kPartStart, ::getpid(), counter.fetch_add(1), machine(), kPartMark,
+        / fmt::format("{}{}-{}-{}{}{}", kPartStart, thisProcess(), counter.fetch_add(1), machine(), kPartMark,
                       extension.size() <= 16 ? extension : "");
 }
 
@@ -81,7 +74,7 @@ std::vector<std::pair<fs::path, pid_t>> partsIn(const fs::path& folder)
 bool isSpecial(const fs::path& file)
 {
     std::error_code ignored;
-    if ((file.native().starts_with("/dev/") || file.native().starts_with("/proc/")) && fs::is_symlink(file, ignored))
+    if (isNameOfDevice(file))
         return true;
     const fs::file_status status = fs::status(file, ignored);
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
@@ -101,6 +94,14 @@ fs::path linkTarget(fs::path file)
     return file;
 }
 
+Status checkName(const fs::path& file)
+{
+    if (const std::string device = reservedName(file); !device.empty())
+        return outputError(
+            fmt::format("{}: expected a name for a file, found the name of the device {}", file.string(), device));
+    return Done{};
+}
+
 Error cannotWrite(const fs::path& file, int number)
 {
     return outputError(fmt::format("{}: cannot write: {}", file.string(), reasonOf(number)));
@@ -118,8 +119,7 @@ int writeAll(OpenFile file, const ByteBlocks& blocks)
     int number = 0;
     for (std::span<const std::byte> bytes : blocks)
         while (!bytes.empty() && number == 0) {
-            const ssize_t written =
-                ::write(::fileno(file.get()), bytes.data(), bytes.size()); // fwrite ends at a signal
+            const std::ptrdiff_t written = writeSome(file.get(), bytes.data(), bytes.size());
             if (written > 0)
                 bytes = bytes.subspan(std::size_t(written));
             else if (written == 0 || errno != EINTR)
@@ -132,7 +132,7 @@ int writeAll(OpenFile file, const ByteBlocks& blocks)
 
 std::string reasonOf(int number)
 {
-    if (number == ENOSPC || number == EDQUOT)
+    if (meansFull(number))
         return "no space left on the device";
     if (number == EFBIG)
         return "no space left: the file would exceed the file size limit (ulimit -f)";
@@ -155,8 +155,9 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
 
 OutputFile::~OutputFile()
 {
+    std::error_code ignored;
     if (!gone_ && !special_)
-        ::unlink(part_.c_str());
+        fs::remove(part_, ignored);
 }
 
 Result<OutputFile> OutputFile::begin(const fs::path& name)
@@ -167,6 +168,7 @@ Result<OutputFile> OutputFile::begin(const fs::path& name)
         return outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
     if (fs::is_directory(file, ignored))
         return outputError(fmt::format("{}: is a folder", file.string()));
+    COTAN_CHECK(checkName(file));
     COTAN_CHECK(beginOutput(file));
     const bool special = isSpecial(file);
     return OutputFile(file, special ? file : partBeside(file), special);
@@ -174,7 +176,7 @@ Result<OutputFile> OutputFile::begin(const fs::path& name)
 
 Result<OpenFile> OutputFile::open(bool reads) const
 {
-    OpenFile file(std::fopen(part_.c_str(), reads ? "w+be" : "wbe"));
+    OpenFile file(openStream(part_, reads ? "w+b" : "wb"));
     if (!file)
         return cannotWrite(file_, errno);
     return file;
@@ -183,10 +185,12 @@ Result<OpenFile> OutputFile::open(bool reads) const
 Status OutputFile::commit()
 {
     COTAN_CHECK(mayAppear(file_));
-    if (!special_ && ::rename(part_.c_str(), file_.c_str()) != 0) {
-        const int number = errno;
+    std::error_code failed;
+    if (!special_)
+        fs::rename(part_, file_, failed);
+    if (failed) {
         blockWhileEnding();
-        return cannotWrite(file_, number);
+        return cannotWrite(file_, failed.default_error_condition().value());
     }
     gone_ = true;
     endOutput(file_);
@@ -200,7 +204,7 @@ Error OutputFile::failed(const Error& error) const
         return error;
     if (!special_) { // a trial
         static constexpr std::array<std::byte, 65536> kNothing{};
-        OpenFile part(std::fopen(part_.c_str(), "abe"));
+        OpenFile part(openStream(part_, "ab"));
         if (const int number = part ? writeAll(std::move(part), {kNothing}) : errno)
             return cannotWrite(file_, number);
     }
@@ -219,7 +223,7 @@ Status commitTogether(std::span<OutputFile> files)
         const bool isNew = !fs::exists(fs::symlink_status(file.destination(), ignored));
         if (Status done = file.commit(); !done) {
             for (const fs::path& path : made)
-                ::unlink(path.c_str());
+                fs::remove(path, ignored);
             return done;
         }
         if (isNew)
@@ -249,7 +253,7 @@ Status checkWritable(const fs::path& file, bool makesFolder)
     if (fs::is_directory(file, ignored))
         return outputError(fmt::format("{}: is a folder", file.string()));
     if (isSpecial(file))
-        return ::access(file.c_str(), W_OK) == 0 ? Status(Done{}) : cannotWrite(file, errno);
+        return mayWrite(file) ? Status(Done{}) : cannotWrite(file, errno);
     fs::path folder = folderOf(file);
     while (makesFolder && !fs::exists(fs::symlink_status(folder, ignored)) && folder != folderOf(folder))
         folder = folderOf(folder);
@@ -257,7 +261,8 @@ Status checkWritable(const fs::path& file, bool makesFolder)
         return outputError(makesFolder
                                ? fmt::format("{}: cannot create a folder: {} is a file", file.string(), folder.string())
                                : fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    COTAN_CHECK(checkName(file));
+    if (!mayWrite(folder))
         return outputError(
             fmt::format("{}: cannot write in the folder {}: {}", file.string(), folder.string(), reasonOf(errno)));
     return Done{};
@@ -275,7 +280,7 @@ std::vector<fs::path> leftParts(const fs::path& folder)
 {
     std::vector<fs::path> parts;
     for (const auto& [part, owner] : partsIn(folder))
-        if (::kill(owner, 0) != 0 && errno == ESRCH)
+        if (!isRunning(owner))
             parts.push_back(part);
     return parts;
 }

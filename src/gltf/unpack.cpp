@@ -5,7 +5,7 @@
 
 #include "core/one_line.hpp"
 #include "elements.hpp"
-#include "files/sandbox/process.hpp"
+#include "files/sandbox/reader_process.hpp"
 #include "gltf/draco.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf_file.hpp"

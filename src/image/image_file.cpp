@@ -9,7 +9,7 @@
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
-#include "files/sandbox/process.hpp"
+#include "files/sandbox/reader_process.hpp"
 #include "files/sandbox/scene_wire.hpp"
 #include "formats.hpp"
 #include "image/checks.hpp"

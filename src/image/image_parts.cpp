@@ -14,8 +14,9 @@
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
-#include "files/sandbox/process.hpp"
+#include "files/sandbox/reader_process.hpp"
 #include "files/sandbox/scene_wire.hpp"
+#include "files/system/system.hpp"
 #include "formats.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
@@ -144,7 +145,7 @@ Status checkRows(const RowReader& rows, std::size_t fileBytes, const LoadLimits&
 
 Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadLimits& limits)
 {
-    OpenFile stream(std::fopen(file.c_str(), "rb"));
+    OpenFile stream(openStream(file, "rb"));
     if (!stream)
         return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
     std::array<std::byte, 16> bytes{};

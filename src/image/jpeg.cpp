@@ -1,6 +1,7 @@
 #include "codecs.hpp"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
@@ -55,7 +56,7 @@ void onMessage(j_common_ptr common, int level)
 
 void onOutput(j_common_ptr) {}
 
-bool readHeader(Decoder& decoder, const unsigned char* data, unsigned long size)
+bool readHeader(Decoder& decoder, std::span<const std::byte> bytes)
 {
     jpeg_decompress_struct& jpeg = decoder.jpeg;
     jpeg.err = jpeg_std_error(&decoder.errors);
@@ -66,7 +67,8 @@ bool readHeader(Decoder& decoder, const unsigned char* data, unsigned long size)
     if (setjmp(decoder.escape))
         return false;
     jpeg_create_decompress(&jpeg); // keeps err and client_data
-    jpeg_mem_src(&jpeg, data, size);
+    jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
+                 static_cast<unsigned long>(std::min(bytes.size(), std::size_t(ULONG_MAX)))); // 32 bits on Windows
     jpeg_read_header(&jpeg, TRUE);
     return true;
 }
@@ -153,7 +155,7 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
         return inputError(
             fmt::format("{}: broken JPEG: expected data that libjpeg can read, it found: {}", name, decoder.message));
     };
-    if (!readHeader(decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
+    if (!readHeader(decoder, bytes))
         return broken();
     if (auto error = checkScans(decoder.jpeg, bytes, name, limits))
         return *error;
@@ -258,7 +260,7 @@ std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image& image, 
                                                             int& quality)
 {
     Decoder decoder;
-    if (!readHeader(decoder, reinterpret_cast<const unsigned char*>(old.data()), old.size()))
+    if (!readHeader(decoder, old))
         return std::nullopt;
     const jpeg_decompress_struct& like = decoder.jpeg;
     if (like.jpeg_color_space != JCS_YCbCr && like.jpeg_color_space != JCS_RGB)

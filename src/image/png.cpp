@@ -263,13 +263,31 @@ struct PngEffort {
 constexpr PngEffort kQuickPng{2, PNG_FILTER_UP};
 constexpr PngEffort kSmallPng{6, PNG_ALL_FILTERS}; // libpng's defaults
 
+// Takes the bytes of a PNG file.
+struct PngSink {
+    std::FILE* file = nullptr;               // closed by the caller
+    std::vector<std::byte>* bytes = nullptr; // if there is no file
+
+    // Returns false if the disk or the memory is full. No exception may pass through libpng.
+    bool take(const png_byte* source, std::size_t size) const
+    try {
+        if (file)
+            return std::fwrite(source, 1, size, file) == size;
+        const auto* const first = reinterpret_cast<const std::byte*>(source);
+        bytes->insert(bytes->end(), first, first + size);
+        return true;
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+};
+
 struct PngWriter {
-    std::FILE* file;                // closed by the caller
+    PngSink sink;
     char message[kPngMessage] = ""; // set when a function returns false
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, message, onPngError, onPngWarning);
     png_infop info = png ? png_create_info_struct(png) : nullptr; // null: out of memory
 
-    explicit PngWriter(std::FILE* out) : file(out) {}
+    explicit PngWriter(PngSink to) : sink(to) {}
     ~PngWriter() { png_destroy_write_struct(&png, &info); }
     PngWriter(const PngWriter&) = delete;
     PngWriter& operator=(const PngWriter&) = delete;
@@ -277,7 +295,7 @@ struct PngWriter {
 
 void onWrite(png_structp png, png_bytep source, std::size_t size)
 {
-    if (std::fwrite(source, 1, size, static_cast<std::FILE*>(png_get_io_ptr(png))) != size)
+    if (!static_cast<const PngSink*>(png_get_io_ptr(png))->take(source, size))
         png_error(png, "writing failed");
 }
 
@@ -290,7 +308,7 @@ bool startPng(PngWriter& writer, const RowFormat& format, PngEffort effort)
     if (setjmp(png_jmpbuf(png)))
         return false;
     const bool wide = format.type == PixelType::unorm16;
-    png_set_write_fn(png, writer.file, onWrite, onFlush);
+    png_set_write_fn(png, &writer.sink, onWrite, onFlush);
     // libpng's default limit is 1,000,000 pixels per side.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_compression_level(png, effort.level);
@@ -332,12 +350,12 @@ bool endPng(PngWriter& writer)
     return true;
 }
 
-Status writeTo(OpenFile out, const Image& image, const std::string& name, PngEffort effort)
+Status writeTo(PngSink sink, const Image& image, const std::string& name, PngEffort effort)
 {
     bool written = false;
     std::string why = "out of memory";
     {
-        PngWriter writer(out.get());
+        PngWriter writer(sink);
         if (writer.info) {
             const RowFormat format = {image.width, image.height, image.type, !isOpaque(image), false, image.frame};
             written = startPng(writer, format, effort)
@@ -347,10 +365,6 @@ Status writeTo(OpenFile out, const Image& image, const std::string& name, PngEff
             why = writer.message;
         }
     }
-    if (std::fclose(out.release()) != 0 && written) {
-        written = false;
-        why = "writing failed";
-    }
     if (!written)
         return outputError(fmt::format("{}: {}", name, why));
     return Done{};
@@ -358,7 +372,7 @@ Status writeTo(OpenFile out, const Image& image, const std::string& name, PngEff
 
 class PngOut : public RowWriter {
 public:
-    PngOut(OpenFile file, std::string name) : file_(std::move(file)), writer_(file_.get()), name_(std::move(name)) {}
+    PngOut(OpenFile file, std::string name) : file_(std::move(file)), writer_({file_.get()}), name_(std::move(name)) {}
 
     Status start(const RowFormat& format)
     {
@@ -397,23 +411,17 @@ private:
 
 Status writePng(OpenFile file, const Image& image, const std::string& name)
 {
-    return writeTo(std::move(file), image, name, kQuickPng);
+    COTAN_CHECK(writeTo({.file = file.get()}, image, name, kQuickPng));
+    if (std::fclose(file.release()) != 0)
+        return outputError(fmt::format("{}: writing failed", name));
+    return Done{};
 }
 
 Result<std::vector<std::byte>> encodePng(const Image& image)
 {
-    char* bytes = nullptr;
-    std::size_t size = 0;
-    OpenFile out(::open_memstream(&bytes, &size));
-    if (!out)
-        return outputError(fmt::format("{}: out of memory", image.name));
-    const Status written = writeTo(std::move(out), image, image.name, kSmallPng);
-    const auto* first = reinterpret_cast<const std::byte*>(bytes);
-    std::vector<std::byte> result(first, first + (written ? size : 0));
-    std::free(bytes);
-    if (!written)
-        return written.error();
-    return result;
+    std::vector<std::byte> bytes;
+    COTAN_CHECK(writeTo({.bytes = &bytes}, image, image.name, kSmallPng));
+    return bytes;
 }
 
 Result<std::unique_ptr<RowWriter>> createPngRows(OpenFile file, const RowFormat& format, const std::string& name)

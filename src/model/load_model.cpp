@@ -7,7 +7,7 @@
 
 #include "core/try.hpp"
 #include "files/file_registry.hpp"
-#include "files/sandbox/process.hpp"
+#include "files/sandbox/reader_process.hpp"
 #include "files/sandbox/scene_wire.hpp"
 #include "model/model_formats.hpp"
 #include "scene/geometry.hpp"

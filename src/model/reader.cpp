@@ -1,18 +1,16 @@
 // The child process of the sandboxed reader.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <mutex>
 #include <string_view>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
 #include "files/file_registry.hpp"
+#include "files/sandbox/child.hpp"
 #include "files/sandbox/confine.hpp"
 #include "files/sandbox/request.hpp"
 #include "files/sandbox/scene_wire.hpp"
@@ -24,21 +22,9 @@ namespace {
 
 class Reader {
 public:
-    explicit Reader(int socket)
-        : question_(
-            [socket](std::span<std::byte> bytes) {
-                return std::size_t(std::max<ssize_t>(::recv(socket, bytes.data(), bytes.size(), 0), 0));
-            },
-            std::uint64_t(8) << 30),
-          answer_([socket](std::span<const std::byte> bytes) {
-              while (!bytes.empty()) {
-                  const ssize_t sent = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-                  if (sent <= 0)
-                      return false;
-                  bytes = bytes.subspan(std::size_t(sent));
-              }
-              return true;
-          })
+    explicit Reader(const ParentConnection& parent)
+        : question_([parent](std::span<std::byte> bytes) { return parent.receive(bytes); }, std::uint64_t(8) << 30),
+          answer_([parent](std::span<const std::byte> bytes) { return parent.send(bytes); })
     {
     }
 
@@ -56,7 +42,7 @@ public:
         setBudget();
         request_.limits.expect = [this](std::size_t bytes) { expect(bytes); };
         watchInputs([this](const std::filesystem::path& file) { reportInput(file); });
-        std::set_new_handler([] { ::_exit(kNoMemoryCode); });
+        std::set_new_handler([] { std::_Exit(kNoMemoryCode); });
     }
 
     void read()
@@ -151,20 +137,18 @@ bool isReaderProcess(int argc, const char* const* argv)
 
 int runReaderProcess()
 {
-    struct stat status {};
-    if (::fstat(0, &status) != 0 || !S_ISSOCK(status.st_mode)) {
+    const auto parent = ParentConnection::take();
+    if (!parent) {
         fmt::print(stderr, "{} is internal: it is started by another process, which sends requests on standard input\n",
                    kReaderWord);
         return 1;
     }
-    // Moves the socket away from stdin, so that libraries do not read it.
-    Reader reader(::fcntl(0, F_DUPFD_CLOEXEC, 3));
-    ::dup2(2, 0);
+    Reader reader(*parent);
     if (!reader.receiveRequest())
         return 1;
     reader.confineProcess();
     reader.read();
-    ::_exit(0); // exits at once, since the parent waits: the system frees all memory
+    std::_Exit(0); // exits at once, since the parent waits: the system frees all memory
 }
 
 } // namespace cotan

@@ -216,6 +216,7 @@ Arguments::Arguments(const std::string& name, const std::string& summary, const 
     app_ = &tool_->app;
     app_->name(name);
     app_->description(summary);
+    app_->allow_windows_style_options(false); // on every system "/path" is a file
     app_->set_help_flag("-h,--help", "print this help; -h prints the main options only");
     app_->set_version_flag("--version", version, "print the version");
 }

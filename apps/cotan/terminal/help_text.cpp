@@ -5,11 +5,9 @@
 #include <sstream>
 #include <string_view>
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include "command_walk.hpp"
 #include "core/parse_number.hpp"
+#include "terminal/screen.hpp"
 
 namespace cotan::app {
 
@@ -186,10 +184,9 @@ std::string helpText(const std::vector<const CommandHelp*>& path, HelpLength len
 
 std::size_t helpWidth()
 {
-    winsize size{};
     std::size_t columns = kUsualWidth;
-    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-        columns = size.ws_col;
+    if (const std::size_t width = terminalWidth(stdout); width > 0)
+        columns = width;
     else if (const char* text = std::getenv("COLUMNS"))
         if (int given = 0; parseNumber(std::string_view(text), given) && given > 0)
             columns = std::size_t(given);

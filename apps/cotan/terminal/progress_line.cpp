@@ -7,10 +7,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include "terminal/printable.hpp"
+#include "terminal/screen.hpp"
 
 namespace cotan::app {
 
@@ -30,9 +29,8 @@ double seconds(Clock::duration d) { return std::chrono::duration<double>(d).coun
 
 std::size_t columns()
 {
-    winsize size{};
-    const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-    return known ? std::min<std::size_t>(size.ws_col - 1u, kMaxColumns) : kMaxColumns;
+    const std::size_t width = terminalWidth(stderr);
+    return width > 1 ? std::min(width - 1, kMaxColumns) : kMaxColumns;
 }
 
 // Escapes control characters and cuts the text to `width` UTF-8 characters, ending with "..." if it was cut.
@@ -67,8 +65,8 @@ std::string timeText(double s)
 } // namespace
 
 ProgressLine::ProgressLine(bool quiet, std::size_t total, std::string what)
-    : visible_(!quiet && ::isatty(STDERR_FILENO) == 1), total_(double(total)), what_(std::move(what)),
-      start_(Clock::now()), drawn_(start_)
+    : visible_(!quiet && isTerminal(stderr)), total_(double(total)), what_(std::move(what)), start_(Clock::now()),
+      drawn_(start_)
 {
     const std::lock_guard lock(mutex_);
     if (visible_)

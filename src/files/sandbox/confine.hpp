@@ -1,7 +1,6 @@
-// Confines the child process of a sandboxed reader. Linux.
+// Confines the child process of a sandboxed reader: confine_linux.cpp, confine_windows.cpp.
 #pragma once
 
-#include <csignal>
 #include <cstdint>
 
 #include "files/sandbox/request.hpp"
@@ -22,7 +21,7 @@ namespace cotan {
 inline constexpr bool kSanitized = COTAN_SANITIZED;
 
 // Makes the kernel send this process `signal` when `parent`, or the thread of it that started us, ends.
-void dieWith(std::int64_t parent, int signal = SIGKILL);
+void dieWith(std::int64_t parent, int signal = 9 /*SIGKILL*/);
 
 // Disables core files, including those piped to a program, and prevents other processes from attaching to this one.
 void leaveNoCore();

@@ -1,7 +1,7 @@
 // Stubs for platforms without processes and modules.
 #include "files/module.hpp"
 #include "files/sandbox/confine.hpp"
-#include "files/sandbox/process.hpp"
+#include "files/sandbox/reader_process.hpp"
 
 namespace cotan {
 
@@ -16,12 +16,11 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     return unavailableError(request.name + ": this platform cannot start a process to read it");
 }
 
+Child::~Child() = default;
 ReaderProcess::~ReaderProcess() = default;
 Status ReaderProcess::await() { return failure(); }
 void ReaderProcess::restartClock() {}
 Error ReaderProcess::failure() { return unavailableError("this platform has no processes"); }
-
-void Descriptor::close() {}
 
 void dieWith(std::int64_t, int) {}
 void confine() {}

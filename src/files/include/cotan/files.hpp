@@ -41,7 +41,8 @@ namespace cotan {
 // Guarantees on Linux: the child has the limits below, none of our descriptors except one socket and a pipe for its
 // messages, and no core file. It dies with the thread that started it. Its whole answer is checked before use. If the
 // kernel supports Landlock and seccomp, it cannot change files, start programs, signal other processes or open
-// connections. Not guaranteed: the child may read every file that the caller may read, and their contents may be part
+// connections. On Windows: it has the limits, inherits the pipes to us alone, starts no programs, ends with us, and has
+// low integrity, so that it can change hardly any file. Not guaranteed: the child may read every file that the caller may read, and their contents may be part
 // of the answer.
 
 struct Sandbox {

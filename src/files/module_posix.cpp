@@ -8,6 +8,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include "files/system/program.hpp"
+
 namespace cotan {
 
 namespace fs = std::filesystem;
@@ -17,9 +19,7 @@ namespace {
 std::vector<fs::path> foldersOf(const ModuleLocations& locations)
 {
     std::vector<fs::path> folders;
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (!error)
+    if (const fs::path program = programFile(); !program.empty())
         folders.push_back(program.parent_path().parent_path() / locations.subfolder);
     if (Dl_info us; ::dladdr(reinterpret_cast<const void*>(&loadModule), &us) != 0) {
         const fs::path beside = fs::path(us.dli_fname).parent_path();
