@@ -39,6 +39,10 @@ cotan_optional(PNG PNG::PNG libpng libpng-dev "no PNG files, no tool" PNG)
 cotan_optional(JPEG JPEG::JPEG libjpeg libjpeg-dev "no JPEG files, no tool" JPEG)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 cotan_optional(WEBP WebP::webp libwebp libwebp-dev "no WebP files, and no glTF with such images" WebP)
+find_package(zstd CONFIG QUIET) # Debian's has a shared library, the one for Windows a static one
+if(TARGET zstd::libzstd_static AND NOT TARGET zstd::libzstd_shared)
+  add_library(zstd::libzstd_shared ALIAS zstd::libzstd_static)
+endif()
 cotan_optional(ZSTD zstd::libzstd_shared libzstd libzstd-dev "no KTX2 files packed with Zstandard" zstd CONFIG)
 cotan_optional(ZLIB ZLIB::ZLIB zlib zlib1g-dev "no KTX2 files packed with zlib" ZLIB)
 cotan_optional(OPENIMAGEIO OpenImageIO::OpenImageIO OpenImageIO "libopenimageio-dev openimageio-tools"

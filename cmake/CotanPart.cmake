@@ -12,6 +12,9 @@ target_compile_options(cotan_warnings INTERFACE
 # GLM's vectors without unions (x, y, z only): compilers keep them in registers and vectorise loops over them. Only for
 # code built here: the layout is the same, but users may want .rgb of their own vectors.
 target_compile_definitions(cotan_warnings INTERFACE GLM_FORCE_XYZW_ONLY)
+if(MINGW)
+  target_compile_options(cotan_warnings INTERFACE "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/windows/utf8_paths.hpp")
+endif()
 # Internal headers, by their paths in src; also only for code built here.
 target_include_directories(cotan_warnings INTERFACE ${PROJECT_SOURCE_DIR}/src)
 

@@ -86,7 +86,7 @@ void declare(Arguments& a, FiguresCommandOptions& o)
     addDeviceOption(a, o.device);
 }
 
-#ifdef COTAN_WITH_VULKAN
+#ifdef COTAN_WITH_COST
 void declare(Arguments& a, CostCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, but listed only where used
@@ -144,7 +144,7 @@ void addFiguresCommand(Arguments& tool, Status (*run)(const FiguresCommandOption
         declare, run);
 }
 
-#ifdef COTAN_WITH_VULKAN
+#ifdef COTAN_WITH_COST
 void addCostCommand(Arguments& tool, Status (*run)(const CostCommandOptions&))
 {
     addCommand<CostCommandOptions>(
@@ -160,9 +160,11 @@ void addCostCommand(Arguments& tool, Status (*run)(const CostCommandOptions&))
 // Accepts any words and reports what is missing.
 void addCostCommand(Arguments& tool, Status (*)(const CostCommandOptions&))
 {
-    Arguments command = tool.command("cost", "Measure what each frame costs. Not in this build: needs Vulkan.");
+    Arguments command =
+        tool.command("cost", "Measure what each frame costs. Not in this build: needs Linux and Vulkan.");
     command.takesAnything();
-    command.does([]() -> Status { return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools"); });
+    command.does(
+        []() -> Status { return notBuiltWith("the measurement of costs", "libvulkan-dev and glslang-tools"); });
 }
 #endif
 

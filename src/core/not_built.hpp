@@ -8,9 +8,14 @@
 namespace cotan {
 
 // Returns "not built with Embree: install libembree-dev and build Cotan again". packages: their names in Debian 12.
-inline Error notBuiltWith(const std::string& library, const std::string& packages)
+// The builds for Windows come as they are.
+inline Error notBuiltWith(const std::string& library, [[maybe_unused]] const std::string& packages)
 {
+#ifdef _WIN32
+    return unavailableError("not in this build for Windows: " + library);
+#else
     return unavailableError("not built with " + library + ": install " + packages + " and build Cotan again");
+#endif
 }
 
 } // namespace cotan

@@ -6,13 +6,11 @@
 #include "prefilter.hpp"
 
 // The assembler embeds the file; as an array in a source file it would take seconds to compile.
-__asm__(".section .rodata\n"
-        ".balign 2\n"
-        ".hidden cotanStudioHalfs\n"
-        ".globl cotanStudioHalfs\n"
-        "cotanStudioHalfs:\n"
-        ".incbin \"" COTAN_STUDIO_FILE "\"\n"
-        ".previous\n");
+__asm__(COTAN_STUDIO_SECTION "\n"
+                             ".balign 2\n"
+                             ".globl cotanStudioHalfs\n"
+                             "cotanStudioHalfs:\n"
+                             ".incbin \"" COTAN_STUDIO_FILE "\"\n" COTAN_STUDIO_AFTER "\n");
 extern "C" const std::uint16_t cotanStudioHalfs[];
 
 namespace cotan {

@@ -1,0 +1,11 @@
+# Programs for Windows: a manifest, and the version that Explorer shows. Does nothing on other systems.
+function(cotan_windows_program target)
+  if(NOT WIN32)
+    return()
+  endif()
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/windows/program.rc.in ${CMAKE_CURRENT_BINARY_DIR}/program.rc @ONLY)
+  target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/program.rc)
+endfunction()
+if(WIN32)
+  enable_language(RC)
+endif()

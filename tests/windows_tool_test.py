@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""windows_tool_test.py ZIP TOOL FACT: the release for Windows, unpacked in an empty folder and run under Wine, does what
+the tool of this system does. Exit code 77: Wine is missing."""
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+from output_inputs import make_inputs  # noqa: E402
+
+wrong = []
+
+
+def expect(holds, what):
+    if not holds:
+        wrong.append(what)
+
+
+class Release:
+    """The unpacked zip, in a folder whose name is not ASCII, and a new Wine prefix."""
+
+    def __init__(self, packed, tool, folder):
+        self.folder, self.tool = pathlib.Path(folder), tool
+        with zipfile.ZipFile(packed) as archive:
+            archive.extractall(self.folder / "Cotan für 日本")
+        self.programs = next((self.folder / "Cotan für 日本").iterdir())
+        self.environment = {**os.environ, "WINEPREFIX": str(self.folder / "wine"), "WINEDEBUG": "-all", "HOME": str(self.folder)}
+        self.run("--version")  # Wine makes its prefix, and tells of it
+
+    def run(self, *words, folder=None, program="cotan.exe", **more):
+        return subprocess.run(["wine", str(self.programs / program), *map(str, words)], cwd=folder or self.folder,
+                              env=self.environment, capture_output=True, timeout=300, check=False, **more)
+
+    def close(self):
+        for server in ("wineserver", "/usr/lib/wine/wineserver64"):
+            if shutil.which(server):
+                subprocess.run([server, "-k"], env=self.environment, check=False)
+                return
+
+
+def inputs(release, name):
+    folder = release.folder / name
+    folder.mkdir()
+    make_inputs(folder)
+    subprocess.run([release.tool, "convert", "panel.gltf", "-o", "m.glb"], cwd=folder, check=True, capture_output=True)
+    return folder
+
+
+def sha(path):
+    return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
+
+
+def namesOfAllLettersAreReadAndWritten(release):
+    folder = inputs(release, "Größe 法線 😀")
+    model = folder / "m.glb"
+    shutil.copy(model, folder / "модель ü.glb")
+    run = release.run("convert", "модель ü.glb", "-o", "öut 日本.glb", "--json", "rёport.json", folder=folder)
+    expect(run.returncode == 0, run.stderr.decode())
+    expect((folder / "öut 日本.glb").exists(), "no output under its name: " + str(sorted(p.name for p in folder.iterdir())))
+    expect("öut 日本.glb" in run.stdout.decode() + (folder / "rёport.json").read_text(), "the name is not said as it was given")
+    missing = release.run("lint", "ничего.glb", folder=folder)
+    expect(missing.returncode == 2 and "ничего.glb: no such file" in missing.stderr.decode(), missing.stderr.decode())
+
+
+def backslashesDrivesAndLongNamesArePaths(release):
+    folder = inputs(release, "paths")
+    model = folder / "m.glb"
+    deep = folder / "a" / ("b" * 120) / ("c" * 120)
+    deep.mkdir(parents=True)
+    shutil.copy(model, deep / "m.glb")
+    for name in (f"Z:{model}".replace("/", "\\"), f".\\{model.name}", f"..\\paths\\{model.name}", str(model), str(deep / "m.glb").replace("/", "\\")):
+        run = release.run("lint", name, "--json", "r.json", folder=folder)
+        expect(run.returncode in (0, 1) and json.loads((folder / "r.json").read_text()), f"{name}: {run.stderr.decode()}")
+        (folder / "r.json").unlink(missing_ok=True)
+
+
+def namesOfDevicesAreNoFiles(release):
+    folder = inputs(release, "devices")
+    model = folder / "m.glb"
+    for name, device in (("CON.glb", "CON"), ("nul.glb", "NUL"), ("a\\COM1.glb", "COM1"), ("lpt9 .glb", "LPT9")):
+        (folder / "a").mkdir(exist_ok=True)
+        run = release.run("convert", model.name, "-o", name, folder=folder)
+        expect(run.returncode != 0 and f"the device {device}" in run.stderr.decode(), f"{name}: {run.returncode} {run.stderr.decode()}")
+    run = release.run("convert", model.name, "-o", "console.glb", folder=folder)
+    expect(run.returncode == 0, "console.glb is a file: " + run.stderr.decode())
+
+
+def anInputIsNeverReplaced(release):
+    folder = inputs(release, "inputs")
+    model = folder / "m.glb"
+    before = sha(model)
+    for name in (model.name, model.name.upper(), f".\\{model.name}", f"Z:{model}"):
+        if not (folder / name).exists() and name == model.name.upper():
+            continue  # this file system tells cases apart, and Wine looks in it
+        run = release.run("convert", model.name, "-o", name, folder=folder)
+        expect(run.returncode != 0 and "is an input" in run.stderr.decode(), f"{name}: {run.returncode} {run.stderr.decode()}")
+        expect(sha(model) == before, f"{name}: the input has changed")
+    expect(not list(folder.glob(".cotan-*")), "unfinished files are left")
+
+
+def theReaderOfUntrustedFilesIsAChild(release):
+    folder = inputs(release, "child")
+    for name, content in (("broken.webp", b"RIFF\x20\0\0\0WEBPVP8 \x10\0\0\0" + b"\xff" * 16), ("empty.webp", b"")):
+        (folder / name).write_bytes(content)
+        run = release.run("map", "info", name, folder=folder)
+        here = subprocess.run([release.tool, "map", "info", name], cwd=folder, capture_output=True, check=False)
+        expect((run.returncode, run.stderr) == (here.returncode, here.stderr), f"{name}: {run.returncode} {run.stderr.decode()} here {here.stderr.decode()}")
+    internal = release.run("read-for-parent", folder=folder, stdin=subprocess.DEVNULL)
+    good = release.run("bake", "--high", "high.obj", "--low", "low.obj", "--size", "32", "-o", "n.png", folder=folder)
+    expect(good.returncode == 0, "models are read: " + good.stderr.decode())
+    expect(internal.returncode == 1 and b"is internal" in internal.stderr, internal.stderr.decode())
+
+
+def itNeedsNothingBesideIt(release):
+    run = release.run("--version")
+    expect(run.returncode == 0 and run.stdout.startswith(b"cotan "), run.stderr.decode())
+    alone = release.folder / "alone"
+    alone.mkdir()
+    shutil.copy(release.programs / "cotan.exe", alone)
+    run = subprocess.run(["wine", str(alone / "cotan.exe"), "shader", "--lang", "hlsl", "--frame", "smooth"], env=release.environment, cwd=alone, capture_output=True, timeout=120, check=False)
+    expect(run.returncode == 0 and b"float3" in run.stdout and b"\r" not in run.stdout, run.stderr.decode())
+
+
+def outputsAreThoseOfThisSystem(release):
+    """The tables of output_bytes.py, which hold what this system's tool makes."""
+    wrapper = release.folder / "wine-cotan"
+    wrapper.write_text(f'#!/bin/sh\nexec wine "{release.programs}/cotan.exe" "$@"\n')
+    wrapper.chmod(0o755)
+    for table in ("maps", "meshes", "shader_text", "pictures"):
+        run = subprocess.run([sys.executable, HERE / "output_bytes.py", wrapper, HERE / "output_bytes" / f"{table}.txt"], env=release.environment, capture_output=True, text=True, check=False)
+        expect(run.returncode == 0, f"{table}: {run.stdout}{run.stderr}")
+
+
+FACTS = (namesOfAllLettersAreReadAndWritten, backslashesDrivesAndLongNamesArePaths, namesOfDevicesAreNoFiles, anInputIsNeverReplaced,
+         theReaderOfUntrustedFilesIsAChild, itNeedsNothingBesideIt, outputsAreThoseOfThisSystem)
+if __name__ == "__main__":
+    if not shutil.which("wine"):
+        print("skipped: wine is missing (scripts/setup doors)")
+        sys.exit(77)
+    chosen = [f for f in FACTS if f.__name__ in sys.argv[3:]] or FACTS
+    for fact in chosen:
+        with tempfile.TemporaryDirectory() as folder:
+            release = Release(sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), folder)
+            try:
+                fact(release)
+            finally:
+                release.close()
+        print(fact.__name__, "fails" if wrong else "holds")
+    print(*wrong, sep="\n", end="\n" if wrong else "")
+    sys.exit(bool(wrong))
