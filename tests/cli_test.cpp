@@ -148,6 +148,22 @@ TEST(CommandLine, controlCharactersOfNamesAreEscaped)
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
+// As a desktop does when a file is opened with the program or dropped on it.
+TEST(CommandLine, aFileAloneIsShownInTheWindow)
+{
+    TemporaryFolder folder;
+    for (const char* name : {"broken.glb", "broken.png"}) {
+        std::ofstream(folder / name) << "neither of both";
+        const ToolRun alone = runTool({name}, folder.path()), view = runTool({"view", name}, folder.path());
+        EXPECT_EQ(alone.code, view.code) << name;
+        EXPECT_EQ(alone.err, view.err) << name;
+        EXPECT_NE(alone.err.find(name), std::string::npos) << alone.err;
+    }
+    const ToolRun missing = runTool({"gone.glb"}, folder.path());
+    EXPECT_EQ(missing.code, 1);
+    EXPECT_NE(missing.err, runTool({"view", "gone.glb"}, folder.path()).err);
+}
+
 TEST(CommandLine, missingModelExitsTwoAndNamesIt)
 {
     TemporaryFolder folder;

@@ -128,18 +128,60 @@ def itNeedsNothingBesideIt(release):
     expect(run.returncode == 0 and b"float3" in run.stdout and b"\r" not in run.stdout, run.stderr.decode())
 
 
+class Display:
+    """An X server of its own, for Wine's windows and its Vulkan."""
+
+    def __init__(self, environment):
+        reader, writer = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "800x600x24"], pass_fds=[writer], stderr=subprocess.DEVNULL)
+        os.close(writer)
+        with os.fdopen(reader) as number:
+            environment["DISPLAY"] = ":" + number.readline().strip()
+
+    def close(self):
+        self.server.kill()
+        self.server.wait()
+
+
+def theDeviceAndTheWindowShowWhatTheyShowHere(release):
+    if not shutil.which("Xvfb"):
+        return expect(False, "Xvfb is missing (scripts/setup test)")
+    folder = inputs(release, "pictures")
+    display = Display(release.environment)
+    try:
+        for model in ("room.gltf", "low.ply", "painted.obj", "m.glb"):
+            words = ["render", model, "--size", "160x120", "--device", "llvmpipe", "--json", f"{model}.json", "-o"]
+            run = release.run(*words, f"{model}.windows.png", folder=folder)
+            expect(run.returncode == 0, f"{model}: {run.stderr.decode()}")
+            subprocess.run([release.tool, *words, f"{model}.png", "--overwrite"], cwd=folder, check=True, capture_output=True, env=release.environment)
+            expect(sha(folder / f"{model}.png") == sha(folder / f"{model}.windows.png"), f"{model}: another image on llvmpipe")
+        (folder / "session.txt").write_text("0 do toggle interface\n0 do show checker\n0 wait\n0 do window FILE.png\n")
+        for words in (["view", "room.gltf"], ["view", "rocks.png"]):
+            seen = []
+            for system in ("windows", "here"):
+                (folder / f"{system}.txt").write_text((folder / "session.txt").read_text().replace("FILE", system))
+                play = [*words, "--size", "200x150", "--play", f"{system}.txt", "--forget", "--overwrite", "--exposure", "1"]
+                run = release.run(*play, folder=folder) if system == "windows" else subprocess.run([release.tool, *play], cwd=folder, capture_output=True, env=release.environment, check=False)
+                expect(run.returncode == 0, f"{words} {system}: {run.stderr.decode()}")
+                seen.append(sha(folder / f"{system}.png") if (folder / f"{system}.png").exists() else system)
+            expect(seen[0] == seen[1], f"{words}: the window shows another image")
+    finally:
+        display.close()
+
+
 def outputsAreThoseOfThisSystem(release):
     """The tables of output_bytes.py, which hold what this system's tool makes."""
     wrapper = release.folder / "wine-cotan"
     wrapper.write_text(f'#!/bin/sh\nexec wine "{release.programs}/cotan.exe" "$@"\n')
     wrapper.chmod(0o755)
     for table in ("maps", "meshes", "shader_text", "pictures"):
-        run = subprocess.run([sys.executable, HERE / "output_bytes.py", wrapper, HERE / "output_bytes" / f"{table}.txt"], env=release.environment, capture_output=True, text=True, check=False)
-        expect(run.returncode == 0, f"{table}: {run.stdout}{run.stderr}")
+        run = subprocess.run([sys.executable, HERE / "output_bytes.py", wrapper, HERE / "output_bytes" / f"{table}.txt", "--where-built"], env=release.environment, capture_output=True, text=True, check=False)
+        print(table, run.stdout.strip().split("\n")[-1] if run.returncode == 0 else run.stdout)
+        expect(run.returncode == 0 and " commands compared" in run.stdout, f"{table}: {run.stderr}")
 
 
 FACTS = (namesOfAllLettersAreReadAndWritten, backslashesDrivesAndLongNamesArePaths, namesOfDevicesAreNoFiles, anInputIsNeverReplaced,
-         theReaderOfUntrustedFilesIsAChild, itNeedsNothingBesideIt, outputsAreThoseOfThisSystem)
+         theReaderOfUntrustedFilesIsAChild, itNeedsNothingBesideIt, theDeviceAndTheWindowShowWhatTheyShowHere, outputsAreThoseOfThisSystem)
 if __name__ == "__main__":
     if not shutil.which("wine"):
         print("skipped: wine is missing (scripts/setup doors)")

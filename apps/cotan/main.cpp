@@ -70,6 +70,15 @@ void addCommands(cotan::app::Arguments& tool)
     addHelpCommand(tool);
 }
 
+// A file that was opened with the program, or dropped on it, and nothing else: the window shows it.
+void showOpened(std::vector<std::string>& words)
+{
+    std::error_code failed;
+    const std::filesystem::path file = words.size() == 1 ? words[0] : "";
+    if (file.has_extension() && std::filesystem::is_regular_file(file, failed))
+        words.insert(words.begin(), "view");
+}
+
 int runCommandLine(std::vector<std::string> words)
 {
     using namespace cotan::app;
@@ -78,6 +87,7 @@ int runCommandLine(std::vector<std::string> words)
     addCommands(tool);
     if (words.size() == 2 && words[0] == "--help-files")
         return finish(writeHelpFiles(tool, words[1]));
+    showOpened(words);
     return finish(tool.run(std::move(words), print));
 }
 

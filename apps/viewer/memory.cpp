@@ -79,8 +79,10 @@ std::filesystem::path memoryFile()
 {
     const char* stateHome = std::getenv("XDG_STATE_HOME");
     const char* home = std::getenv("HOME");
+    const char* local = std::getenv("LOCALAPPDATA"); // of Windows
     std::filesystem::path folder = stateHome && *stateHome == '/' ? std::filesystem::path(stateHome)
         : home && *home                                           ? std::filesystem::path(home) / ".local" / "state"
+        : local && *local                                         ? std::filesystem::path(local)
                                                                   : std::filesystem::path();
     return folder.empty() ? folder : folder / "cotan" / "view.txt";
 }

@@ -19,6 +19,13 @@ Result<std::unique_ptr<Window>> openWindow(const WindowOptions& options)
         return module.error();
     return static_cast<const WindowModule*>(*module)->open(options);
 }
+#elif defined(COTAN_WINDOW_LINKED)
+extern "C" const void* cotanWindowModule();
+
+Result<std::unique_ptr<Window>> openWindow(const WindowOptions& options)
+{
+    return static_cast<const WindowModule*>(cotanWindowModule())->open(options);
+}
 #else
 Result<std::unique_ptr<Window>> openWindow(const WindowOptions&)
 {

@@ -17,9 +17,10 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR}/../headers)
-# Links the compiler's own libraries statically, so that nothing has to be shipped with the result.
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")
-set(CMAKE_SHARED_LINKER_FLAGS_INIT "-static -s")
+# Links the compiler's own libraries statically, so that nothing has to be shipped with the result, and writes no time of
+# linking, so that the same sources give the same bytes.
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--no-insert-timestamp")
+set(CMAKE_SHARED_LINKER_FLAGS_INIT "-static -s -Wl,--no-insert-timestamp")
 # GCC 12 falsely reports overlapping memory in std::string (its bug 105651).
 set(CMAKE_CXX_FLAGS_INIT "-Wno-restrict")
 set(CMAKE_CROSSCOMPILING_EMULATOR wine)

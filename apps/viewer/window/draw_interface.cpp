@@ -270,9 +270,10 @@ void setFont(float scale)
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     fonts.Clear();
     const float pixels = std::round(15 * scale);
-    constexpr std::array kFonts = {
-        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-        "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+    constexpr std::array kFonts = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                   "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+                                   "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+                                   "/usr/share/fonts/TTF/DejaVuSans.ttf", "C:/Windows/Fonts/segoeui.ttf"};
     for (const char* file : kFonts) {
         std::error_code error;
         if (std::filesystem::exists(file, error) && fonts.AddFontFromFileTTF(file, pixels))

@@ -8,6 +8,15 @@
 
 namespace cotan::viewer {
 
+// Gives the backend Vulkan's functions where it is not linked to the loader.
+template<class Load> void giveImGuiFunctions([[maybe_unused]] Load load)
+{
+#ifdef IMGUI_IMPL_VULKAN_NO_PROTOTYPES
+    ImGui_ImplVulkan_LoadFunctions([](const char* name, void* given) { return (*static_cast<Load*>(given))(name); },
+                                   &load);
+#endif
+}
+
 // Starts the backend with a single-sampled render pass. Some versions of `info` have no field for it.
 template<class Info> bool startImGuiBackend(Info info, VkRenderPass pass)
 {

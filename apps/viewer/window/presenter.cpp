@@ -146,6 +146,9 @@ void Presenter::State::startInterface()
     info.DescriptorPool = *descriptors;
     info.MinImageCount = 2;
     info.ImageCount = std::max(2u, std::uint32_t(targets.size()));
+    giveImGuiFunctions([&](const char* name) {
+        return device->instance.getDispatcher()->vkGetInstanceProcAddr(*device->instance, name);
+    });
     startImGuiBackend(info, *pass);
     interfaceStarted = true;
     const auto submit = [this](const auto& upload) {

@@ -203,6 +203,8 @@ void openLogicalDevice(Device& d)
 
 void openInstance(Device& d, bool wanted, const std::vector<const char*>& extensions)
 {
+    // The loader stays open until the process ends: threads of a driver may outlive their device.
+    [[maybe_unused]] static const auto* const kept = new vk::raii::Context;
     const bool validate = wanted && hasValidation(d.context);
     if (wanted && !validate)
         d.messages->emplace_back("VK_LAYER_KHRONOS_validation is not installed");

@@ -42,8 +42,8 @@ namespace cotan {
 // messages, and no core file. It dies with the thread that started it. Its whole answer is checked before use. If the
 // kernel supports Landlock and seccomp, it cannot change files, start programs, signal other processes or open
 // connections. On Windows: it has the limits, inherits the pipes to us alone, starts no programs, ends with us, and has
-// low integrity, so that it can change hardly any file. Not guaranteed: the child may read every file that the caller may read, and their contents may be part
-// of the answer.
+// low integrity, so that it can change hardly any file. Not guaranteed: the child may read every file that the caller
+// may read, and their contents may be part of the answer.
 
 struct Sandbox {
     std::filesystem::path program;        // empty: everything is read in this process
