@@ -67,6 +67,8 @@ def what_builds_make():
         text = "".join(f.read_text() for f in (SOURCES / folder).glob("*.cmake")) + (SOURCES / folder / "CMakeLists.txt").read_text()
         made |= {f"{folder}/{name}" for name in re.findall(r"(?:add_executable|cotan_test)\((\w+)", text)}
     made |= {f"fuzz/{name}" for name in made if name.endswith(("_fuzz", "_replay"))}
+    # The preset windows-tool names its files as Windows does.
+    made |= {f"{path}.exe" for path in made if path.startswith("bin/")} | {"src/c/cotan.dll", "src/c/libcotan.dll.a"}
     made |= {str(f.relative_to(BUILD)) for f in (BUILD / "share").rglob("*")}
     return made | {str(folder) for path in made for folder in pathlib.PurePath(path).parents} | {"CMakeCache.txt", "compile_commands.json"}
 

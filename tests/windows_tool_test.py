@@ -128,6 +128,30 @@ def itNeedsNothingBesideIt(release):
     expect(run.returncode == 0 and b"float3" in run.stdout and b"\r" not in run.stdout, run.stderr.decode())
 
 
+def theLibraryDoesWhatItDoesHere(release):
+    """The C example, compiled against the header and the import library of the zip; and the wheel with the same DLL."""
+    if not shutil.which("x86_64-w64-mingw32-gcc-posix"):
+        return expect(False, "mingw-w64 is missing (scripts/setup doors)")
+    example, place = HERE.parent / "examples" / "c" / "main.c", release.folder
+    subprocess.run(["x86_64-w64-mingw32-gcc-posix", "-std=c99", "-O1", f"-I{release.programs}/include", example,
+                    release.programs / "lib" / "libcotan.dll.a", "-o", release.programs / "example.exe"], check=True)
+    built = release.tool.parent.parent / "src" / "c"
+    subprocess.run(["gcc", "-std=c99", "-O1", f"-I{release.programs}/include", example, built / "libcotan.so", f"-Wl,-rpath,{built}", "-lm", "-o", place / "example"], check=True)
+    there = release.run(program="example.exe", folder=place)
+    here = subprocess.run([place / "example"], cwd=place, capture_output=True, check=True)
+    expect(there.returncode == 0 and there.stdout.replace(b"\r", b"") == here.stdout, f"{there.stdout.decode()}{there.stderr.decode()}; here {here.stdout.decode()}")
+    expect(b"baked" in here.stdout, "the example bakes")
+    (place / "build" / "src" / "c").mkdir(parents=True)
+    shutil.copy(release.programs / "cotan.dll", place / "build" / "src" / "c")
+    made = subprocess.run([HERE.parent / "scripts" / "python-wheel", place / "wheel", place / "build"], capture_output=True, text=True, check=False)
+    expect(made.returncode == 0, made.stderr)
+    wheels = list((place / "wheel").glob("*.whl"))
+    expect([w.name.endswith("-py3-none-win_amd64.whl") for w in wheels] == [True], f"wheels: {wheels}")
+    with zipfile.ZipFile(wheels[0]) as wheel:
+        expect(hashlib.sha256(wheel.read("cotan/cotan.dll")).hexdigest() == sha(release.programs / "cotan.dll"), "the wheel has another library")
+        expect(not [name for name in wheel.namelist() if ".so" in name], "the wheel has a library of another system")
+
+
 class Display:
     """An X server of its own, for Wine's windows and its Vulkan."""
 
@@ -185,7 +209,7 @@ def outputsAreThoseOfThisSystem(release):
 
 
 FACTS = (namesOfAllLettersAreReadAndWritten, backslashesDrivesAndLongNamesArePaths, namesOfDevicesAreNoFiles, anInputIsNeverReplaced,
-         theReaderOfUntrustedFilesIsAChild, itNeedsNothingBesideIt, theDeviceAndTheWindowShowWhatTheyShowHere, outputsAreThoseOfThisSystem)
+         theReaderOfUntrustedFilesIsAChild, itNeedsNothingBesideIt, theLibraryDoesWhatItDoesHere, theDeviceAndTheWindowShowWhatTheyShowHere, outputsAreThoseOfThisSystem)
 if __name__ == "__main__":
     if not shutil.which("wine"):
         print("skipped: wine is missing (scripts/setup doors)")

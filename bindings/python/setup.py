@@ -18,7 +18,8 @@ class Distribution(setuptools.Distribution):
 
 class Wheel(bdist_wheel):
     def get_tag(self):
-        platform = super().get_tag()[2]
+        windows = any(file.name == "cotan.dll" for file in CARRIED)
+        platform = "win_amd64" if windows else super().get_tag()[2]
         return ("py3", "none", platform if CARRIED else "any")
 
 

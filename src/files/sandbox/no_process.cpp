@@ -16,6 +16,7 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     return unavailableError(request.name + ": this platform cannot start a process to read it");
 }
 
+struct Child::System {};
 Child::~Child() = default;
 ReaderProcess::~ReaderProcess() = default;
 Status ReaderProcess::await() { return failure(); }
