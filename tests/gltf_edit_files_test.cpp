@@ -114,7 +114,7 @@ TEST(GltfFiles, imagesAreCopiedToTheSameRelativePaths)
     ASSERT_TRUE(written) << written.error().message;
     std::vector<std::string> names;
     for (const stdfs::path& file : written->files)
-        names.push_back(file.lexically_relative(other.path).string());
+        names.push_back(file.lexically_relative(other.path).generic_string());
     EXPECT_EQ(names, (std::vector<std::string>{"x.gltf", "x.bin", "maps/a b.png"}));
     EXPECT_EQ(wholeFile(other.path / "maps/a b.png"), flatPng());
     EXPECT_EQ(written->bytesAfter,
