@@ -1,3 +1,8 @@
+# Which of the files NAME_posix.cpp and NAME_windows.cpp are built.
+set(COTAN_SYSTEM posix)
+if(WIN32)
+  set(COTAN_SYSTEM windows)
+endif()
 # Programs for Windows: a manifest, and the version that Explorer shows. Does nothing on other systems.
 function(cotan_windows_program target)
   if(NOT WIN32)

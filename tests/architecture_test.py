@@ -58,7 +58,7 @@ def everySourceIsBuilt():
     count = 0
     for part in sorted(p for top in ("src", "apps") for p in (ROOT / top).iterdir() if p.is_dir()):
         text = "".join(p.read_text() for p in part.rglob("CMakeLists.txt"))
-        for name in re.findall(r"\b(\w+_)\$\{system\}\.cpp\b", text):  # a file for each system
+        for name in re.findall(r"\b(\w+_)\$\{COTAN_SYSTEM\}\.cpp\b", text):  # a file for each system
             text += f" {name}posix.cpp {name}windows.cpp"
         for file in part.rglob("*.cpp"):
             count += 1
