@@ -151,6 +151,86 @@ TEST(MapFaults, printedCommandFixesTheFile)
     }
 }
 
+int worstStep(const Image& a, const Image& b)
+{
+    int worst = a.pixelCount() == b.pixelCount() && a.type == b.type ? 0 : 255;
+    for (std::size_t i = 0; worst < 255 && i < 4 * a.pixelCount(); ++i)
+        worst = std::max(worst, std::abs(int(a.bytes8()[i]) - int(b.bytes8()[i])));
+    return worst;
+}
+
+// Green that points up or down, and one fault more.
+TEST(MapFaults, autoFindsThemAndGreenAndGivesTheMapBeforeTheDamage)
+{
+    TemporaryFolder folder;
+    unsigned seed = 10;
+    for (const Broken& broken : kBroken)
+        for (const bool down : {false, true}) {
+            const Image sound = randomRelief(++seed);
+            const Image turned = down ? brokenBy(sound, kBroken[4].change) : sound;
+            const bool twice = broken.kind == "green_down";
+            ASSERT_TRUE(writeImage(folder / "a map.png", twice ? turned : brokenBy(turned, broken.change)));
+            for (const char* to : {"opengl", "directx"}) {
+                const ToolRun fixed = runTool(
+                    {"map", "convert", "a map.png", "--from", "auto", "--to", to, "-o", "fixed.png", "--overwrite"},
+                    folder.path());
+                ASSERT_EQ(fixed.code, 0) << broken.kind << down << fixed.err;
+                const auto image = readImage(folder / "fixed.png");
+                ASSERT_TRUE(image);
+                const Image wanted = to == std::string("opengl") ? sound : brokenBy(sound, kBroken[4].change);
+                const int tolerance = twice || broken.kind == "bgr" ? 0 : 2; // of 255 steps, as above
+                EXPECT_LE(worstStep(wanted, *image), tolerance) << broken.kind << down << to << fixed.out;
+            }
+        }
+}
+
+// Its own zero stays, unless --to names another.
+TEST(MapFaults, autoKeepsTheZeroOfTheMap)
+{
+    TemporaryFolder folder;
+    const Image relief = randomRelief(5, PixelType::float32);
+    Image map = makeImage(relief.width, relief.height, PixelType::unorm8);
+    for (int y = 0; y < relief.height; ++y) {
+        std::vector<glm::vec4> row(std::size_t(relief.width));
+        loadRow(relief, y, row);
+        for (glm::vec4& t : row)
+            t = glm::vec4(glm::normalize(glm::vec3(3, 3, 1) * (2.0f * glm::vec3(t) - 1.0f)) * 0.5f + 0.5f, 1); // steep
+        storeRow(map, y, row);
+    }
+    ASSERT_TRUE(writeImage(folder / "map.png", map));
+    for (const auto& [to, same] : {std::pair("opengl", true), {"gltf", true}, {"opengl,exact", false}}) {
+        const ToolRun run =
+            runTool({"map", "convert", "map.png", "--from", "auto", "--to", to, "-o", "same.png", "--overwrite"},
+                    folder.path());
+        ASSERT_EQ(run.code, 0) << run.err;
+        const auto image = readImage(folder / "same.png");
+        ASSERT_TRUE(image);
+        EXPECT_EQ(worstStep(map, *image) == 0, same) << to << run.out;
+    }
+}
+
+TEST(MapFaults, autoRefusesAMapWhoseGreenCannotBeToldAndWritesNothing)
+{
+    TemporaryFolder folder;
+    Image grey = makeImage(64, 64, PixelType::unorm8), flat = grey;
+    for (std::size_t i = 0; i < 64 * 64; ++i)
+        for (std::size_t c = 0; c < 4; ++c) {
+            grey.bytes8()[4 * i + c] = c == 3 ? 255 : std::uint8_t(i % 64 * 3);
+            flat.bytes8()[4 * i + c] = c < 2 ? 128 : 255;
+        }
+    for (const Image& image : {grey, flat}) {
+        ASSERT_TRUE(writeImage(folder / "map.png", image));
+        const ToolRun run =
+            runTool({"map", "convert", "map.png", "--from", "auto", "--to", "opengl", "-o", "out.png"}, folder.path());
+        EXPECT_EQ(run.code, 2) << run.out;
+        EXPECT_NE(run.err.find("map.png: --from auto: expected a normal map whose green can be told; found: "),
+                  std::string::npos)
+            << run.err;
+        EXPECT_NE(run.err.find("--from opengl or --from directx"), std::string::npos);
+        EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
+    }
+}
+
 // If the zero of a map is 127.5, reversing green about 128 tilts normals by 0.45 degrees.
 TEST(MapFaults, greenOfABiasedMapIsReversedAbout127AndAHalf)
 {

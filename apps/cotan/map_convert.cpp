@@ -1,9 +1,12 @@
 // `cotan map convert`: converts a map to another convention.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/try.hpp"
 #include "image/format_table.hpp"
 #include "map_files/convert.hpp"
+#include "map_files/inspect.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"
 
@@ -21,22 +24,61 @@ struct MapConvertCommandOptions : MapOptions {
     int material = -1;
 };
 
+// The value of --from for a map whose convention is found, as `map detect` finds it.
+constexpr const char* kFound = "auto";
+
+// Sets `from`, and repairs besides, as `map detect` advises. A zero of 127.5 stays unless --to names one.
+Status findSource(const MapConvertCommandOptions& o, ConvertFileOptions& options)
+{
+    using Kind = maps::Fault::Kind;
+    Damage damage;
+    const auto look = [&] {
+        return onFiles(o, "looking at " + o.file,
+                       [&](const FileOptions& files) { return greenOfFile(o.file, files, damage); });
+    };
+    auto found = look();
+    if (found)
+        damage = maps::damageOf(found->verdict.statistics);
+    if (damage.any())
+        found = look();
+    if (!found)
+        return found.error();
+    const auto from = maps::foundConvention(found->verdict, options.to, damage);
+    if (!from)
+        return inputError(fmt::format("{}: --from auto: expected a normal map whose green can be told; found: {}. Say "
+                                      "how it is stored: --from opengl or --from directx",
+                                      o.file, found->verdict.reason));
+    say(o, "{}", linesOf(*found, o.file).front());
+    options.from = *from;
+    const std::vector<std::string> words = splitAtCommas(o.to);
+    const auto names = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
+    if (from->convention.expansion == Expansion::biased && !names("exact") && !names("signed"))
+        options.to.expansion = Expansion::biased;
+    for (const maps::Fault& fault : maps::faultsOf(found->verdict.statistics, &found->verdict)) {
+        options.normalise = options.normalise || fault.kind == Kind::tooShort || fault.kind == Kind::tooLong;
+        if (fault.kind == Kind::eightBitsIn16 && o.bits == "auto")
+            options.bits = "8";
+    }
+    return Done{};
+}
+
 Status run(const MapConvertCommandOptions& o)
 {
-    COTAN_TRY(stated, parseConvention(o.from, "--from"));
-    const StatedConvention& from = *stated;
+    COTAN_TRY(stated, parseConvention(o.from == kFound ? "opengl" : o.from, "--from"));
     COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
-    const Convention& to = *written;
     COTAN_CHECK(needOutput(o, "convert"));
     const bool blocks = o.compress != "none";
-    ConvertFileOptions options{.from = from,
-                               .to = to,
+    ConvertFileOptions options{.from = *stated,
+                               .to = *written,
                                .bits = o.bits,
                                .compress = o.compress,
                                .strength = float(o.strength),
                                .normalise = o.normalise,
                                .dither = o.dither,
                                .mesh = {}};
+    if (o.from == kFound)
+        COTAN_CHECK(findSource(o, options));
+    const Convention& to = options.to;
     if (!o.mesh.empty()) {
         COTAN_TRY(frame, parseFrame(o.frame, "--frame"));
         options.mesh = {o.mesh, *frame, o.tangents, o.material, o.up};
@@ -79,13 +121,15 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
     a.group(HelpGroup::input);
     a.option("FILE", o.file, "the map").required().reads();
     std::vector<std::string> words = conventionWordList();
+    words.insert(words.begin(), kFound);
     std::string damages;
     for (const std::string& word : damageWords()) {
         words.push_back(word);
         damages += ' ' + word;
     }
     a.option("--from", o.from,
-             "how the map is stored: " + conventionWords() + "; and for broken maps, which are repaired:" + damages)
+             "how the map is stored: auto, which finds it as map detect does and repairs what that names; or "
+                 + conventionWords() + "; and for broken maps, which are repaired:" + damages)
         .in("WORDS")
         .offers(words)
         .required()
@@ -126,7 +170,8 @@ void addMapConvert(Arguments& map)
         {"convert",
          "Convert a normal map between conventions, or repair it: green, channels, sRGB, space, bits.",
          "the new map: " + imageEndings([](const ImageFormat& f) { return f.writes || f.texture; }),
-         {"cotan map convert rocks.png --from directx --to opengl -o out.png",
+         {"cotan map convert rocks.png --from auto --to opengl -o out.png",
+          "cotan map convert rocks.png --from directx --to opengl -o out.png",
           "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"},
          /*needsOutput=*/true},
         declare, run);

@@ -190,6 +190,37 @@ std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics&
     return options;
 }
 
+Damage damageOf(const NormalStatistics& statistics)
+{
+    Damage damage;
+    for (const Fault& fault : faultsOf(statistics)) {
+        if (fault.kind == Fault::Kind::srgb || fault.kind == Fault::Kind::linearised)
+            damage.curve = fault.kind == Fault::Kind::srgb ? Damage::Curve::srgb : Damage::Curve::linearised;
+        if (fault.kind == Fault::Kind::redAndBlue)
+            damage.order = Damage::Order::bgr;
+    }
+    return damage;
+}
+
+std::optional<StatedConvention> foundConvention(const GreenVerdict& verdict, const Convention& to, const Damage& undone)
+{
+    const NormalStatistics& s = verdict.statistics;
+    if (verdict.green == Green::undecidable)
+        return std::nullopt;
+    StatedConvention found;
+    found.convention = {MapKind::tangentSpace, to.expansion, Channels::xyz, verdict.green == Green::up, to.v};
+    if (s.centre != Centre::unknown)
+        found.convention.expansion = s.centre == Centre::biased ? Expansion::biased : Expansion::exact;
+    if (s.content == Content::signedValues)
+        found.convention.expansion = Expansion::signedValues;
+    if (s.content == Content::twoChannel || s.content == Content::slopes)
+        found.convention.channels = s.content == Content::slopes ? Channels::slope : Channels::orthographic;
+    found.damage = undone;
+    if (verdict.swapped == Swapped::yes && undone.order == Damage::Order::rgb)
+        found.damage.order = Damage::Order::grb;
+    return found;
+}
+
 std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults, const NormalStatistics& statistics)
 {
     if (faults.empty())

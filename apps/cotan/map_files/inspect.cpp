@@ -38,12 +38,16 @@ Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOpti
     return found;
 }
 
-Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files)
+Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files, const Damage& damage)
 {
     COTAN_TRY(reader, openRows(map, files.limits));
     RowReader& in = **reader;
     PatchSampler sampler(in.width, in.height, in.type);
-    const Status read = inOrder(in, files.progress, [&](const Image& strip, int row) { sampler.add(strip, row); });
+    const Status read = inOrder(in, files.progress, [&](const Image& strip, int row) {
+        Image undone = damage.any() ? strip : Image();
+        undo(damage, undone);
+        sampler.add(damage.any() ? undone : strip, row);
+    });
     if (!read)
         return read.error();
     return GreenOfFile{greenOf(sampler), sampler.patches().size()};

@@ -31,8 +31,9 @@ struct GreenOfFile {
     std::size_t patches = 0; // evaluated patches
 };
 
-// Determines the direction of green. Errors: as openRows; ErrorKind::stopped.
-Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files = {});
+// Determines the direction of green, after undoing the damage. Errors: as openRows; ErrorKind::stopped.
+Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files = {},
+                                const Damage& damage = {});
 
 // The verdict as sentences and for a report; file: its name.
 std::vector<std::string> linesOf(const GreenOfFile& found, const std::string& file);

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -203,6 +204,16 @@ std::vector<std::string> mapFaults(const Scene& scene, bool judgeGreen = false);
 // The options of `cotan map convert` that fix all faults, such as "--from directx,srgb --to opengl"; empty without
 // faults. A map whose zero is 127.5 keeps it: negating green about 128 would tilt it by 0.45 degrees.
 std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics);
+
+// The damage that the statistics reveal, which hides the direction of green until it is undone: a curve, or red and
+// blue exchanged.
+Damage damageOf(const NormalStatistics& statistics);
+
+// How a map is stored, as its verdict says, after `undone` was undone. Nothing if green is undecidable. Its v is that
+// of `to`, which the map will be converted to; where the zero cannot be told it is that of `to` as well, so that no
+// value moves.
+std::optional<StatedConvention> foundConvention(const GreenVerdict& verdict, const Convention& to,
+                                                const Damage& undone = {});
 
 // "NAME: FAULT; FAULT; cotan map convert OPTIONS fixes it."; without the command if none fixes it; empty without
 // faults.
