@@ -4,8 +4,8 @@ if(TARGET cotan_viewer)
     SOURCES viewer_bake_test.cpp viewer_camera_test.cpp viewer_camera_moves_test.cpp viewer_commands_test.cpp viewer_menus_test.cpp viewer_state_test.cpp
       pick_test.cpp inspection_test.cpp drawn_edges_test.cpp
       inspection_views_test.cpp viewer_input_test.cpp viewer_interface_test.cpp viewer_orders_test.cpp viewer_pictures_test.cpp viewer_report_test.cpp
-      viewer_requests_test.cpp
-    LIBRARIES cotan_viewer cotan_inspect cotan_scene fmt::fmt)
+      viewer_requests_test.cpp viewer_tasks_test.cpp
+    LIBRARIES cotan_viewer cotan_maps cotan_inspect cotan_scene fmt::fmt)
   target_compile_definitions(viewer_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
   add_dependencies(viewer_test cotan)
   if(TARGET cotan_window)

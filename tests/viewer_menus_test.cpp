@@ -96,8 +96,8 @@ TEST(ViewerMenus, theKeySheetHasATitlePerMenuAndOneForTheMouse)
         if (key.empty())
             titles.push_back(what);
     EXPECT_EQ(titles,
-              (std::vector<std::string>{"File", "Camera", "Frame", "Compare with", "Comparison", "View", "Light",
-                                        "Animation", "Mouse"}));
+              (std::vector<std::string>{"File", "Check and fix", "Camera", "Frame", "Compare with", "Comparison",
+                                        "View", "Light", "Animation", "Mouse"}));
     EXPECT_TRUE(sheet.front().first.empty());
     EXPECT_FALSE(sheet.back().first.empty());
 }

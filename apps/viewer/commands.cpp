@@ -116,6 +116,7 @@ Status toggle(State& state, const std::string& name)
                                                            {"hot-spots", &State::problemAreasShown},
                                                            {"card", &State::cardShown},
                                                            {"statistics", &State::statisticsShown},
+                                                           {"result", &State::resultShown},
                                                            {"look", &State::dark},
                                                            {"loop", &State::loops},
                                                            {"turntable", &State::turning},
@@ -203,10 +204,14 @@ Status play(State& state)
 
 Status copy(State& state, const std::string& what)
 {
-    if (what != "command" && what != "camera")
-        return expected("copy", "command or camera", what);
-    state.requests.push_back(
-        request::Copy{what == "camera" ? formatCamera(state.camera) : commandLine(state, "picture.png", state.size)});
+    if (what == "camera")
+        state.requests.push_back(request::Copy{formatCamera(state.camera)});
+    else if (what == "command")
+        state.requests.push_back(request::Copy{commandLine(state, "picture.png", state.size)});
+    else if (what == "result")
+        state.requests.push_back(request::Copy{fmt::format("{}", fmt::join(state.result.lines, "\n"))});
+    else
+        return expected("copy", "command, camera or result", what);
     return Done{};
 }
 
@@ -290,6 +295,12 @@ const std::map<std::string, Perform>& commandTable()
          }},
         {"find-hot-spots", requested<request::FindProblemAreas>},
         {"lose-surface", requested<request::LoseSurface>},
+        {"run",
+         [](State& s, Words& w) {
+             s.requests.push_back(request::RunTask{w.next()});
+             return Status(Done{});
+         }},
+        {"stop", requested<request::StopTask>},
         {"quit", requested<request::Quit>},
         {"set", performSet},
         {"show", [](State& s, Words& w) { return show(s, w.rest); }},

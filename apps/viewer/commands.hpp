@@ -20,7 +20,7 @@ namespace cotan::viewer {
 //   compare off|divider|flip|angle | flip | divider FRACTION | swap | toggle NAME | scale X | size W H | play
 //   second frame|tangents|normal-map|convention|high VALUE | tangents NAME | convention WORDS | picture [FILE [W H]]
 //   window FILE | report FILE | copy command|camera | paste | choose [COMMAND] | find-hot-spots | hot-spot N
-//   lose-surface | quit
+//   lose-surface | run TASK (tasks.hpp) | stop | quit
 Status perform(State& state, const std::string& line);
 
 // A command offered by a menu, by a key, or by both.

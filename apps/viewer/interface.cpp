@@ -199,8 +199,11 @@ Interface interfaceOf(const State& s)
     i.sliders = slidersOf(s);
     i.status = statusOf(s);
     i.problem = s.problem;
-    i.progress = s.progress;
-    i.doing = s.loading.empty() ? "" : "loading " + s.loading;
+    i.progress = s.task.empty() ? s.progress : 0;
+    i.doing = !s.loading.empty() ? "loading " + s.loading : s.task.empty() ? "" : "running: " + s.task;
+    i.resultShown = s.resultShown;
+    i.resultTitle = s.result.title;
+    i.resultLines = s.result.lines;
     if (s.cardShown && s.interfaceShown && s.probe.hit && s.held.empty()) {
         i.card = cardOf(s);
         i.cardAt = s.pointer;

@@ -59,6 +59,9 @@ struct Interface {
     std::string leftName, rightName;
     std::vector<std::pair<double, glm::vec3>> scaleBar;    // degrees and their colours
     std::vector<std::pair<std::string, glm::vec3>> legend; // of other colours
+    bool resultShown = false;                              // of a task
+    std::string resultTitle;
+    std::vector<std::string> resultLines;
     bool problemAreasShown = false;
     std::vector<Choice> problemAreas;
     std::vector<std::pair<std::string, std::string>> sheet; // key, and action with its value; titles have no key

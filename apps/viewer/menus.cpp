@@ -12,6 +12,7 @@
 #include "parse.hpp"
 #include "picture/option_words.hpp"
 #include "settings.hpp"
+#include "tasks.hpp"
 
 namespace cotan::viewer {
 
@@ -97,6 +98,20 @@ void addFileEntries(Entries& e, const State& s)
             [&](std::size_t i) { e.add(s.recent[i], "", "open " + s.recent[i], s.recent[i] == s.picture.model); });
     e.line();
     e.add("Quit", "ctrl+q", "quit");
+}
+
+void addTaskEntries(Entries& e, const State& s)
+{
+    e.menu("Check and fix");
+    for (const TaskEntry& task : taskEntries())
+        if (task.name)
+            e.add(task.label, "", fmt::format("run {}", task.name), false, s.task.empty() && task.usable(s));
+        else
+            e.line();
+    e.line();
+    e.add("Result", "k", "toggle result", s.resultShown, !s.result.lines.empty());
+    e.add("Copy result", "", "copy result", false, !s.result.lines.empty());
+    e.add("Stop", "", "stop", false, !s.task.empty());
 }
 
 void addCameraEntries(Entries& e, const State& s)
@@ -288,6 +303,7 @@ std::vector<Entry> entriesOf(const State& state)
 {
     Entries entries(state);
     addFileEntries(entries, state);
+    addTaskEntries(entries, state);
     addCameraEntries(entries, state);
     addFrameEntries(entries, state);
     addShowEntries(entries, state);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -104,6 +105,24 @@ Status carryOut(Parts& parts, const request::FindProblemAreas&)
     return Done{};
 }
 
+Status carryOut(Parts& parts, const request::RunTask& r)
+{
+    State& state = parts.state;
+    COTAN_TRY(task, taskNamed(state, r.name));
+    COTAN_CHECK(parts.tool.start(parts.options.program, task->words));
+    parts.task = *std::move(task);
+    state.task = parts.task.title;
+    state.message = commandLine(parts.task);
+    app::say(parts.options.common, state.message);
+    return Done{};
+}
+
+Status carryOut(Parts& parts, const request::StopTask&)
+{
+    parts.tool.stop();
+    return Done{};
+}
+
 Status carryOut(Parts& parts, const request::Quit&)
 {
     parts.quits = true;
@@ -146,6 +165,32 @@ Status carryOut(Parts& parts, const request::LoadHigh& r)
 }
 
 } // namespace
+
+// Takes over what a task has printed and made, once it has ended.
+void takeTask(Parts& parts)
+{
+    constexpr int kOverLimit = 5; // of lint, whose findings are no failure
+    State& state = parts.state;
+    const auto end = parts.tool.take();
+    if (!end)
+        return;
+    state.task.clear();
+    state.result = {parts.task.title, {}};
+    constexpr std::string_view kPrefix = "cotan: ", kWarning = "warning: ";
+    std::vector<std::string>& lines = state.result.lines;
+    std::istringstream text(end->output);
+    for (std::string line; std::getline(text, line);)
+        lines.push_back(line.starts_with(kPrefix) ? line.substr(kPrefix.size()) : line);
+    std::ranges::stable_partition(lines, [&](const std::string& line) { return !line.starts_with(kWarning); });
+    if (end->code != 0 && end->code != kOverLimit)
+        state.result.title += end->code < 0 ? ": ended" : fmt::format(": exit code {}", end->code);
+    if (lines.empty())
+        lines.push_back("no output");
+    state.resultShown = true;
+    if (end->code == 0)
+        for (const std::string& command : parts.task.shows)
+            apply(state, {-1, EventKind::command, 0, 0, command});
+}
 
 void beginLoads(Parts& parts)
 {
@@ -191,6 +236,7 @@ Status carryOutRequests(Parts& parts)
         parts.state.problem = chosen.error().message;
     else if (!chosen->empty())
         apply(parts.state, {0, EventKind::command, 0, 0, parts.chosenFor + " " + *chosen});
+    takeTask(parts);
     watchShown(parts);
     if (parts.watch.changed(secondsNow()))
         parts.state.requests.push_back(request::Load{parts.state.picture.model});

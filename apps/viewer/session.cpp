@@ -185,7 +185,7 @@ private:
     bool idle() const
     {
         return !parts_.loader.busy() && state_.requests.empty() && parts_.pictures.idle(state_) && !parts_.dialog.open()
-            && !parts_.probe.busy();
+            && !parts_.probe.busy() && !parts_.tool.running();
     }
 
     // Maximum seconds to wait for events.
@@ -193,7 +193,9 @@ private:
     {
         if (options_.plays)
             return player_.waits() ? 0.01 : 0;
-        return state_.playing || state_.turning || !state_.keysDown.empty() ? 0.008 : 0.25;
+        if (state_.playing || state_.turning || !state_.keysDown.empty())
+            return 0.008;
+        return parts_.tool.running() ? 0.05 : 0.25;
     }
 
     Result<std::vector<Event>> nextEvents(double& passed)

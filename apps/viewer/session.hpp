@@ -14,7 +14,8 @@ struct SessionOptions {
     std::vector<Event> played; // replaces pointer and keys; played as fast as possible
     bool plays = false;        // also if there are no events
     std::filesystem::path record;
-    std::filesystem::path memory; // where the state is kept between runs; empty: nowhere
+    std::filesystem::path program; // that runs tasks: this very program
+    std::filesystem::path memory;  // where the state is kept between runs; empty: nowhere
 };
 
 // Runs until the user quits or all events are played. Errors: those of reading the first model if events are played or

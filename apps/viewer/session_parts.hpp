@@ -11,6 +11,8 @@
 #include "pictures.hpp"
 #include "pointer_probe.hpp"
 #include "session.hpp"
+#include "tasks.hpp"
+#include "tool_process.hpp"
 
 namespace cotan::viewer {
 
@@ -45,6 +47,8 @@ struct Parts {
     Pictures pictures;
     PointerProbe probe;
     Dialog dialog;
+    ToolProcess tool;
+    Task task;                        // that runs in it
     Watch highWatch;                  // the files of the detailed model
     Watch watch;                      // all other displayed files
     std::vector<std::string> watched; // the names that these files were found by

@@ -246,6 +246,10 @@ std::string reportOf(const State& state)
         add("stored tangent", p.storedTangent == glm::vec3(0) ? "none" : textOf(p.storedTangent));
         add("degrees there", state.probe.degrees < 0 ? "none" : fmt::format("{:.2f}", state.probe.degrees));
     }
+    if (!state.result.title.empty())
+        add("result", state.result.title);
+    for (const std::string& line : state.result.lines)
+        add("result line", line);
     if (state.problemAreas) {
         add("problem areas", fmt::format("{}", state.problemAreas->size()));
         for (const ProblemArea& area : *state.problemAreas)

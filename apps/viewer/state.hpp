@@ -78,18 +78,29 @@ struct Resize {
 };
 struct LoseSurface {};
 struct FindProblemAreas {};
+struct RunTask { // taskNamed
+    std::string name;
+};
+struct StopTask {};
 struct Quit {};
 } // namespace request
 
-using Request = std::variant<request::Load, request::LoadHigh, request::Pose, request::WriteImage, request::WriteWindow,
-                             request::WriteReport, request::Copy, request::Paste, request::ChooseFile, request::Resize,
-                             request::LoseSurface, request::FindProblemAreas, request::Quit>;
+using Request =
+    std::variant<request::Load, request::LoadHigh, request::Pose, request::WriteImage, request::WriteWindow,
+                 request::WriteReport, request::Copy, request::Paste, request::ChooseFile, request::Resize,
+                 request::LoseSurface, request::FindProblemAreas, request::RunTask, request::StopTask, request::Quit>;
 
 // The surface under the pointer.
 struct Probe {
     std::optional<PickedPoint> hit;
     Probed surface;
     float degrees = -1; // in the image of angles; negative: none
+};
+
+// What a task (tasks.hpp) printed.
+struct TaskResult {
+    std::string title;
+    std::vector<std::string> lines;
 };
 
 inline constexpr std::size_t kMaxRecent = 10; // files that are remembered
@@ -123,7 +134,7 @@ struct State {
     std::vector<std::string> recent;                      // files, most recent first
 
     bool interfaceShown = true, cheatSheet = false, dark = true, settingsShown = false, problemAreasShown = false;
-    bool cardShown = true, statisticsShown = true;
+    bool cardShown = true, statisticsShown = true, resultShown = false;
     float scale = 0; // of the interface; 0: the scale of the screen
 
     // Input.
@@ -140,6 +151,8 @@ struct State {
     std::string device, problem, message;
     float progress = -1; // of loading
     std::string loading; // file
+    std::string task;    // title of the one that runs; empty: none
+    TaskResult result;   // of the last one; empty: none yet
     double drawSeconds = 0;
     std::uint64_t pictures = 0; // drawn so far
     std::size_t loads = 0, failedLoads = 0;

@@ -10,6 +10,7 @@
 #include "files.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
+#include "files/system/program.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 #include "session.hpp"
@@ -67,6 +68,7 @@ Status run(const ViewCommandOptions& o)
         COTAN_CHECK(noteInput(file));
     viewer::SessionOptions session;
     session.common = o;
+    session.program = sameProgram();
     if (!o.play.empty()) {
         const auto text = readText(o.play);
         COTAN_TRY(events, text ? viewer::eventsOf(*text, o.play) : text.error());
@@ -122,7 +124,7 @@ void addViewCommand(app::Arguments& tool)
     addCommand<ViewCommandOptions>(
         tool,
         {"view",
-         "Open a model or a map in a window.",
+         "Open a model or a map in a window; `cotan FILE` is the same.",
          "",
          {"cotan view model.glb", "cotan view statue_low.obj --normal-map rocks.png --second mikktspace",
           "cotan view statue_low.obj --normal-map rocks.png --high statue.obj"}},

@@ -61,7 +61,8 @@ void drawSliders(const Interface& interface, Commands& chosen)
         return;
     const float line = ImGui::GetFrameHeight();
     ImGui::SetNextWindowPos({line / 2, 2 * line}, ImGuiCond_Appearing);
-    if (ImGui::Begin("Settings", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize))
+    bool open = true;
+    if (ImGui::Begin("Settings", &open, kPanel | ImGuiWindowFlags_AlwaysAutoResize))
         for (const Slider& slider : interface.sliders) {
             float value = float(slider.value);
             ImGui::SetNextItemWidth(9 * line);
@@ -72,9 +73,12 @@ void drawSliders(const Interface& interface, Commands& chosen)
                 chosen.push_back(slider.command + " " + textOfReal(value));
         }
     ImGui::End();
+    if (!open)
+        chosen.push_back("toggle settings");
 }
 
-void drawStatus(const Interface& interface)
+// Returns its upper edge.
+float drawStatus(const Interface& interface)
 {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0, size.y}, ImGuiCond_Always, {0, 1});
@@ -90,12 +94,14 @@ void drawStatus(const Interface& interface)
             ImGui::TextUnformatted(interface.status.c_str());
         ImGui::PopTextWrapPos();
     }
+    const float top = ImGui::GetWindowPos().y;
     ImGui::End();
     if (interface.progress >= 0) { // a line along the bottom edge
         ImDrawList& over = *ImGui::GetForegroundDrawList();
         over.AddRectFilled({0, size.y - 4}, {size.x * std::min(interface.progress, 1.0f), size.y},
                            ImGui::GetColorU32(ImGuiCol_PlotHistogram));
     }
+    return top;
 }
 
 void drawCard(const Interface& interface)
@@ -108,9 +114,12 @@ void drawCard(const Interface& interface)
     ImGui::SetNextWindowPos({interface.cardAt.x + (right ? -line : line), interface.cardAt.y + (low ? -line : line)},
                             ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
     ImGui::SetNextWindowBgAlpha(0.8f);
-    if (ImGui::Begin("##card", nullptr, kFixed | ImGuiWindowFlags_NoInputs))
+    if (ImGui::Begin("##card", nullptr, kFixed | ImGuiWindowFlags_NoInputs)) {
+        ImGui::PushTextWrapPos(16 * line);
         for (const std::string& text : interface.card)
             ImGui::TextUnformatted(text.c_str());
+        ImGui::PopTextWrapPos();
+    }
     ImGui::End();
 }
 
@@ -191,27 +200,59 @@ void drawLegend(const Interface& interface)
     }
 }
 
+// Begins a panel at the left or right border that leaves the middle of the image, where the model is, visible.
+bool beginSidePanel(const std::string& title, bool left, float bottom, bool& open)
+{
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float line = ImGui::GetFrameHeight(), width = std::max(10 * line, 0.27f * size.x);
+    if (left)
+        ImGui::SetNextWindowPos({line / 2, bottom}, ImGuiCond_Always, {0, 1});
+    else
+        ImGui::SetNextWindowPos({size.x - line / 2, 2 * line}, ImGuiCond_Always, {1, 0});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, size.y * 0.45f});
+    ImGui::SetNextWindowBgAlpha(0.85f);
+    return ImGui::Begin(title.c_str(), &open, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
 void drawProblemAreas(const Interface& interface, Commands& chosen)
 {
     if (!interface.problemAreasShown)
         return;
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float line = ImGui::GetFrameHeight();
-    ImGui::SetNextWindowPos({size.x - line / 2, 2 * line}, ImGuiCond_Always, {1, 0});
-    ImGui::SetNextWindowSizeConstraints({8 * line, 0}, {std::max(8 * line, size.x * 0.6f), size.y * 0.4f});
-    if (ImGui::Begin("Problem areas", nullptr,
-                     kPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar)) {
+    bool open = true;
+    if (beginSidePanel("Problem areas", /*left*/ false, 0, open)) {
         if (interface.problemAreas.empty())
             ImGui::TextUnformatted("none found");
+        const float width = ImGui::GetContentRegionAvail().x;
         int number = 0;
         for (const Choice& area : interface.problemAreas) {
             ImGui::PushID(number++);
-            if (ImGui::Selectable(area.text.c_str()))
+            const float height = ImGui::CalcTextSize(area.text.c_str(), nullptr, false, width).y;
+            if (ImGui::Selectable("##area", false, 0, {width, height}))
                 chosen.push_back(area.command);
+            ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), ImGui::GetItemRectMin(),
+                                                ImGui::GetColorU32(ImGuiCol_Text), area.text.c_str(), nullptr, width);
             ImGui::PopID();
         }
     }
     ImGui::End();
+    if (!open)
+        chosen.push_back("toggle hot-spots");
+}
+
+void drawResult(const Interface& interface, float bottom, Commands& chosen)
+{
+    if (!interface.resultShown || interface.resultLines.empty())
+        return;
+    bool open = true;
+    if (beginSidePanel(interface.resultTitle + "###result", /*left*/ true, bottom, open)) {
+        ImGui::PushTextWrapPos(0);
+        for (const std::string& text : interface.resultLines)
+            ImGui::TextUnformatted(text.c_str());
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::End();
+    if (!open)
+        chosen.push_back("toggle result");
 }
 
 void drawSheet(const Interface& interface)
@@ -297,7 +338,7 @@ std::vector<std::string> drawInterface(const Interface& interface, float scale)
     if (interface.shown) {
         drawMenus(interface, chosen);
         drawSliders(interface, chosen);
-        drawStatus(interface);
+        drawResult(interface, drawStatus(interface) - ImGui::GetFrameHeight() / 2, chosen);
         drawProblemAreas(interface, chosen);
         drawCard(interface);
     }

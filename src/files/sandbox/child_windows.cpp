@@ -4,14 +4,13 @@
 #include <array>
 #include <atomic>
 #include <mutex>
-#include <system_error>
 #include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <io.h>
 
-#include "core/windows.hpp"
+#include "files/sandbox/process_windows.hpp"
 // After windows.h.
 #include <psapi.h>
 
@@ -21,68 +20,6 @@ namespace {
 
 constexpr double kMegabyte = 1 << 20;
 constexpr DWORD kLookEvery = 10; // ms, at the child's memory and times
-
-class Handle {
-public:
-    Handle() = default;
-    explicit Handle(HANDLE handle) : handle_(handle) {}
-    Handle(Handle&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
-    Handle& operator=(Handle&& other) noexcept
-    {
-        std::swap(handle_, other.handle_);
-        return *this;
-    }
-    ~Handle() { close(); }
-    HANDLE get() const { return handle_; }
-    void close()
-    {
-        if (handle_ != nullptr && handle_ != INVALID_HANDLE_VALUE)
-            ::CloseHandle(handle_);
-        handle_ = nullptr;
-    }
-
-private:
-    HANDLE handle_ = nullptr;
-};
-
-std::string lastReason() { return std::system_category().message(int(::GetLastError())); }
-
-// A pipe of which the child inherits one end.
-struct Pipe {
-    Handle ours, childs;
-
-    bool open(bool childReads)
-    {
-        HANDLE read = nullptr, write = nullptr;
-        if (::CreatePipe(&read, &write, nullptr, 1 << 16) == 0)
-            return false;
-        ours = Handle(childReads ? write : read);
-        childs = Handle(childReads ? read : write);
-        return ::SetHandleInformation(childs.get(), HANDLE_FLAG_INHERIT, HANDLE_FLAG_INHERIT) != 0;
-    }
-};
-
-// As the C runtime of the child takes a word apart again:
-// https://learn.microsoft.com/cpp/c-language/parsing-c-command-line-arguments
-std::wstring quoted(const std::wstring& word)
-{
-    std::wstring text = L"\"";
-    std::size_t backslashes = 0;
-    for (const wchar_t letter : word) {
-        if (letter == L'"')
-            text.append(backslashes + 1, L'\\'); // doubles those before a quotation mark, and escapes it
-        backslashes = letter == L'\\' ? backslashes + 1 : 0;
-        text += letter;
-    }
-    return text.append(backslashes, L'\\') + L"\"";
-}
-
-std::size_t readPipe(HANDLE pipe, std::span<std::byte> bytes)
-{
-    DWORD got = 0;
-    const DWORD most = DWORD(std::min<std::size_t>(bytes.size(), 1u << 30));
-    return ::ReadFile(pipe, bytes.data(), most, &got, nullptr) != 0 ? got : 0;
-}
 
 bool writePipe(HANDLE pipe, std::span<const std::byte> bytes)
 {
@@ -186,42 +123,12 @@ std::string Child::start(const std::filesystem::path& program, const std::vector
     Pipe input, output, error;
     if (!input.open(/*childReads*/ true) || !output.open(false) || !error.open(false))
         return lastReason();
-    std::wstring line = quoted(program.native());
-    for (const std::string& argument : arguments)
-        line += L" " + quoted(std::filesystem::path(argument).native());
-
-    // The child inherits these three handles and no others.
-    std::array<HANDLE, 3> inherited{input.childs.get(), output.childs.get(), error.childs.get()};
-    SIZE_T size = 0;
-    ::InitializeProcThreadAttributeList(nullptr, 1, 0, &size);
-    std::vector<std::byte> attributes(size);
-    STARTUPINFOEXW startup{};
-    startup.lpAttributeList = reinterpret_cast<LPPROC_THREAD_ATTRIBUTE_LIST>(attributes.data());
-    startup.StartupInfo.cb = sizeof startup;
-    startup.StartupInfo.dwFlags = STARTF_USESTDHANDLES;
-    startup.StartupInfo.hStdInput = inherited[0];
-    startup.StartupInfo.hStdOutput = inherited[1];
-    startup.StartupInfo.hStdError = inherited[2];
-    if (::InitializeProcThreadAttributeList(startup.lpAttributeList, 1, 0, &size) == 0
-        || ::UpdateProcThreadAttribute(startup.lpAttributeList, 0, PROC_THREAD_ATTRIBUTE_HANDLE_LIST, inherited.data(),
-                                       sizeof inherited, nullptr, nullptr)
-            == 0)
-        return lastReason();
-    PROCESS_INFORMATION started{};
-    const BOOL fine = ::CreateProcessW(program.c_str(), line.data(), nullptr, nullptr, TRUE,
-                                       EXTENDED_STARTUPINFO_PRESENT | CREATE_SUSPENDED | CREATE_NO_WINDOW
-                                           | CREATE_NEW_PROCESS_GROUP, // so that Ctrl-C reaches only us
-                                       nullptr, nullptr, &startup.StartupInfo, &started);
-    const std::string why = fine ? std::string() : lastReason();
-    ::DeleteProcThreadAttributeList(startup.lpAttributeList);
-    if (!fine)
-        return why;
     System& s = *system_;
-    s.process = Handle(started.hProcess);
     s.job = makeJob();
-    ::AssignProcessToJobObject(s.job.get(), s.process.get()); // fails inside of jobs before Windows 8: then without
-    ::ResumeThread(started.hThread);
-    ::CloseHandle(started.hThread);
+    const SpawnRequest request{program,    arguments, input.childs.get(), output.childs.get(), error.childs.get(),
+                               s.job.get()};
+    if (std::string why = spawn(request, s.process); !why.empty())
+        return why;
     s.input = std::move(input.ours);
     s.output = std::move(output.ours);
     s.error = std::move(error.ours);
