@@ -12,6 +12,7 @@ set(COTAN_PACKAGE_Threads::Threads "Threads")
 set(COTAN_PACKAGE_fmt::fmt "fmt")
 set(COTAN_PACKAGE_PNG::PNG "PNG")
 set(COTAN_PACKAGE_JPEG::JPEG "JPEG")
+set(COTAN_PACKAGE_Astcenc::astcenc "Astcenc")
 set(COTAN_PACKAGE_WebP::webp "WebP")
 set(COTAN_PACKAGE_XxHash::xxhash "XxHash")
 set(COTAN_PACKAGE_zstd::libzstd_shared "zstd CONFIG")
@@ -31,6 +32,7 @@ set(COTAN_PC_ZLIB::ZLIB "zlib")
 set(COTAN_PC_assimp::assimp "assimp")
 set(COTAN_PC_draco::draco "draco")
 set(COTAN_FLAG_Threads::Threads "-pthread")
+set(COTAN_FLAG_Astcenc::astcenc "-lastcenc")
 set(COTAN_FLAG_embree "-lembree${COTAN_EMBREE_MAJOR}")
 set(COTAN_FLAG_meshoptimizer::meshoptimizer "-lmeshoptimizer")
 
@@ -123,6 +125,7 @@ configure_package_config_file(cmake/cotanConfig.cmake.in ${PROJECT_BINARY_DIR}/c
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cotanConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/cotanConfig.cmake ${PROJECT_BINARY_DIR}/cotanConfigVersion.cmake
+  cmake/FindAstcenc.cmake
   cmake/FindWebP.cmake
   cmake/FindXxHash.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)

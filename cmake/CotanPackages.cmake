@@ -61,7 +61,7 @@ libraries, what CMake and pkg-config ask, and the portable text for shaders.
 A part needs the development files of what it is made with; those are
 suggested.")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_DEPENDS "libcotan0 (= ${version}), libglm-dev")
-set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_SUGGESTS "cotan (= ${version}), cmake, pkg-config, libassimp-dev, libdraco-dev, libembree-dev, libfmt-dev, \
+set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_SUGGESTS "cotan (= ${version}), cmake, pkg-config, libassimp-dev, libastcenc-dev, libdraco-dev, libembree-dev, libfmt-dev, \
 libjpeg-dev, libmeshoptimizer-dev, libpng-dev, libvulkan-dev, libwebp-dev, libxxhash-dev, libzstd-dev, zlib1g-dev")
 cotan_package(python3-cotan python "normal mapping without precomputed tangents: Python 3"
 "${about}

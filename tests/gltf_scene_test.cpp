@@ -421,11 +421,13 @@ TEST(GltfCameras, lookAlongTheirNodesMinusZ)
 TEST(GltfExtensions, supportedOnesAreNotReportedAsIgnored)
 {
     for (const char* const name :
-         {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",
-          "EXT_mesh_gpu_instancing", "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit",
-          "KHR_materials_emissive_strength", "KHR_materials_clearcoat", "KHR_materials_anisotropy", "KHR_materials_ior",
-          "KHR_materials_specular", "KHR_materials_sheen", "KHR_materials_transmission", "KHR_materials_variants",
-          "EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu"}) {
+         {"KHR_draco_mesh_compression", "EXT_meshopt_compression",  "KHR_meshopt_compression",
+          "KHR_mesh_quantization",      "EXT_mesh_gpu_instancing",  "KHR_texture_transform",
+          "KHR_lights_punctual",        "KHR_materials_unlit",      "KHR_materials_emissive_strength",
+          "KHR_materials_clearcoat",    "KHR_materials_anisotropy", "KHR_materials_ior",
+          "KHR_materials_specular",     "KHR_materials_sheen",      "KHR_materials_transmission",
+          "KHR_materials_variants",     "EXT_texture_webp",         "MSFT_texture_dds",
+          "KHR_texture_basisu",         "EXT_texture_astc"}) {
         Gltf g = square();
         g.root["extensionsUsed"] = g.root["extensionsRequired"] = {name};
         COTAN_LOADED(scene, g.load());

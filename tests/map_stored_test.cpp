@@ -189,7 +189,12 @@ TEST(MapStored, unsupportedTextureFormatsAreReported)
     const auto said = [](const char* compress, const char* bits, const char* to, const char* file) -> std::string {
         const auto code = codeFor(compress, bits, as(to), file);
         if (code)
-            return *code == TexelCode::bc5 ? "bc5" : *code == TexelCode::bc7 ? "bc7" : "rgba8";
+            return code->kind == TexelCode::astc
+                ? fmt::format("{} x {}{}", code->width, code->height, code->two ? ", two" : "")
+                : *code == TexelCode::eacRg11 ? "eac"
+                : *code == TexelCode::bc5     ? "bc5"
+                : *code == TexelCode::bc7     ? "bc7"
+                                              : "rgba8";
         EXPECT_EQ(code.error().kind, ErrorKind::usage);
         return code.error().message;
     };
@@ -201,8 +206,22 @@ TEST(MapStored, unsupportedTextureFormatsAreReported)
             EXPECT_EQ(said("bc5", bits, "gltf,orthographic", file), "bc5");
             EXPECT_EQ(said("bc7", bits, "gltf", file), "bc7");
         }
+    for (const char* bits : {"auto", "8"}) {
+        EXPECT_EQ(said("eac-rg11", bits, "gltf", "a.ktx2"), "eac");
+        EXPECT_EQ(said("astc-6x5", bits, "gltf", "a.ktx2"), "6 x 5");
+        EXPECT_EQ(said("astc-8x8", bits, "gltf,xy", "a.ktx2"), "8 x 8, two");
+    }
+    for (const char* word : {"eac-rg11", "astc-4x4"}) {
+        EXPECT_EQ(said(word, "8", "gltf", "a.dds"),
+                  fmt::format("options.compress: {} is for .ktx2 files; found '.dds'", word));
+        EXPECT_EQ(
+            said(word, "8", "gltf,slope", "a.ktx2"),
+            fmt::format("options.to: {} holds x and y of unit vectors; found another form of two channels", word));
+    }
     EXPECT_EQ(said("none", "16", "gltf", "a.png"), "rgba8") << "which is not asked about bits";
-    EXPECT_EQ(said("bc6", "8", "gltf", "a.dds"), "options.compress: expected none, bc5 or bc7; found 'bc6'");
+    EXPECT_EQ(said("bc6", "8", "gltf", "a.dds"),
+              "options.compress: expected one of none, bc5, bc7, eac-rg11, astc-4x4, astc-5x4, astc-5x5, astc-6x5, "
+              "astc-6x6, astc-8x5, astc-8x6, astc-8x8; found 'bc6'");
     EXPECT_EQ(said("bc5", "8", "gltf", "a.png"), "options.compress: blocks are for .dds and .ktx2 files; found '.png'");
     EXPECT_EQ(said("none", "16", "gltf", "a.ktx2"),
               "options.bits: expected 8 or auto, as .ktx2 files have 8 bits; found '16'");
@@ -217,6 +236,8 @@ TEST(MapStored, unsupportedTextureFormatsAreReported)
     // Blocks store values from 0 to 1 around a half, whatever a shader treats as zero.
     for (const auto& [code, channels, expansion] : {std::tuple(TexelCode::rgba8, Channels::xyz, Expansion::exact),
                                                     {TexelCode::bc5, Channels::orthographic, Expansion::biased},
+                                                    {TexelCode::eacRg11, Channels::orthographic, Expansion::biased},
+                                                    {{6, 6}, Channels::xyz, Expansion::biased},
                                                     {TexelCode::bc7, Channels::xyz, Expansion::biased}}) {
         const Convention taken = codeConvention(code, as("directx,exact"));
         EXPECT_EQ(taken.channels, channels);

@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "image/format_table.hpp"
+#include "map_files/texture_file.hpp"
 #include "map_options.hpp"
 
 namespace cotan::app {
@@ -20,12 +21,14 @@ void addBits(Arguments& command, MapOptions& options, const std::string& help)
 void addCompress(Arguments& command, std::string& compress)
 {
     command
-        .option("--compress", compress,
-                "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
-                    + ": none, or blocks of one byte per texel: bc5 (x and y only, more exact) or bc7 (x, y, z and "
-                      "alpha)")
+        .option(
+            "--compress", compress,
+            "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
+                + ": none; blocks of one byte per texel, bc5 (x and y only, more exact) or bc7 (x, y, z and "
+                  "alpha); and for phones, in .ktx2, eac-rg11 (x and y, one byte) or astc-4x4 to astc-8x8 (16 bytes "
+                  "for as many texels; x, y and z, or x in red and y in alpha if --to has two channels)")
         .in("NAME")
-        .offers({"none", "bc5", "bc7"})
+        .offers(compressionWords())
         .under(HelpGroup::output);
 }
 

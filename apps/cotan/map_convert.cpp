@@ -96,17 +96,14 @@ Status run(const MapConvertCommandOptions& o)
     if (done->counts.clamped > 0)
         warn(o, "{}: {} texels are steeper than {} can hold; clamped", o.file, done->counts.clamped, describe(to));
     const std::vector<std::string> warnings = warned(o, done->notes);
-    Convention stored = to;
-    if (o.compress == "bc5" && to.channels == Channels::xyz)
-        stored.channels = Channels::orthographic;
     const std::string bits = blocks ? o.compress : bitsName(done->bits);
-    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bits, describe(stored));
+    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bits, describe(done->to));
     return writeReport(o,
                        {{"command", "map convert"},
                         {"file", o.file},
                         {"output", o.output.string()},
                         {"from", describe(done->from)},
-                        {"to", describe(stored)},
+                        {"to", describe(done->to)},
                         {"width", done->width},
                         {"height", done->height},
                         {"bits", bits},

@@ -5,30 +5,50 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <optional>
 
 #include <fmt/format.h>
 #include <glm/detail/type_half.hpp>
 
 #include "core/try.hpp"
 #include "formats.hpp"
+#include "image/astc.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
 #include "image/dds.hpp"
+#include "image/etc.hpp"
 #include "numbers.hpp"
 
 namespace cotan {
 
 namespace {
 
+// Blocks of width x height pixels.
+struct BlockFormat {
+    DdsCode dds = {};           // their code in DDS, which OpenImageIO decodes
+    std::optional<EtcCode> etc; // decodeEtc
+    int width = 4, height = 4;  // with neither: ASTC
+    std::uint32_t bytes() const { return dds.block != 0 ? dds.block : etc ? std::uint32_t(etcBytes(*etc)) : 16; }
+};
+
+constexpr BlockFormat dds(std::string_view letters, std::uint32_t code, std::uint32_t bytes)
+{
+    return {{letters, code, bytes}, std::nullopt, 4, 4};
+}
+constexpr BlockFormat etc(EtcCode code) { return {{}, code, 4, 4}; }
+constexpr BlockFormat astc(int width, int height) { return {{}, std::nullopt, width, height}; }
+
 // How the pixels of a supported VkFormat are stored.
 struct Ktx2Format {
     std::uint32_t linear = 0; // VkFormat
     std::uint32_t srgb = 0;   // its sRGB variant; `linear` if there is none
     int channels = 0;         // of the decoded image
-    int bytes = 0;            // per component; 0: blocks of 4 x 4 pixels
+    int bytes = 0;            // per component; 0: blocks that decode to 8 bits
     bool floats = false;      // components are floats of 2 or 4 bytes
     bool blueFirst = false;   // BGR order
-    DdsCode blocks = {};      // the DDS code of the blocks
+    BlockFormat blocks = {};
+
+    bool hasBlocks() const { return bytes == 0 || blocks.etc; }
 };
 
 // The largest level of a file, and the keys that apply to it.
@@ -63,20 +83,40 @@ constexpr Ktx2Format kVulkanFormats[] = {{9, 15, 1, 1},
                                          {103, 103, 2, 4, true},
                                          {106, 106, 3, 4, true},
                                          {109, 109, 4, 4, true},
-                                         {131, 132, 4, 0, false, false, {"DXT1", 0, 8}},
-                                         {133, 134, 4, 0, false, false, {"DXT1", 0, 8}},
-                                         {135, 136, 4, 0, false, false, {"DXT3", 0, 16}},
-                                         {137, 138, 4, 0, false, false, {"DXT5", 0, 16}},
-                                         {139, 139, 1, 0, false, false, {"DX10", 80, 8}},
-                                         {141, 141, 2, 0, false, false, {"DX10", 83, 16}},
-                                         {145, 146, 4, 0, false, false, {"DX10", 98, 16}}};
+                                         {131, 132, 4, 0, false, false, dds("DXT1", 0, 8)},
+                                         {133, 134, 4, 0, false, false, dds("DXT1", 0, 8)},
+                                         {135, 136, 4, 0, false, false, dds("DXT3", 0, 16)},
+                                         {137, 138, 4, 0, false, false, dds("DXT5", 0, 16)},
+                                         {139, 139, 1, 0, false, false, dds("DX10", 80, 8)},
+                                         {141, 141, 2, 0, false, false, dds("DX10", 83, 16)},
+                                         {145, 146, 4, 0, false, false, dds("DX10", 98, 16)},
+                                         {147, 148, 3, 0, false, false, etc(EtcCode::rgb)},
+                                         {149, 150, 4, 0, false, false, etc(EtcCode::rgbPunchedAlpha)},
+                                         {151, 152, 4, 0, false, false, etc(EtcCode::rgba)},
+                                         {153, 153, 1, 2, false, false, etc(EtcCode::r11)},
+                                         {155, 155, 2, 2, false, false, etc(EtcCode::rg11)},
+                                         {157, 158, 4, 0, false, false, astc(4, 4)},
+                                         {159, 160, 4, 0, false, false, astc(5, 4)},
+                                         {161, 162, 4, 0, false, false, astc(5, 5)},
+                                         {163, 164, 4, 0, false, false, astc(6, 5)},
+                                         {165, 166, 4, 0, false, false, astc(6, 6)},
+                                         {167, 168, 4, 0, false, false, astc(8, 5)},
+                                         {169, 170, 4, 0, false, false, astc(8, 6)},
+                                         {171, 172, 4, 0, false, false, astc(8, 8)},
+                                         {173, 174, 4, 0, false, false, astc(10, 5)},
+                                         {175, 176, 4, 0, false, false, astc(10, 6)},
+                                         {177, 178, 4, 0, false, false, astc(10, 8)},
+                                         {179, 180, 4, 0, false, false, astc(10, 10)},
+                                         {181, 182, 4, 0, false, false, astc(12, 10)},
+                                         {183, 184, 4, 0, false, false, astc(12, 12)}};
 
 constexpr std::uint64_t kHeader = 80, kLevelEntry = 24;
 
 std::uint64_t storedBytes(const Ktx2Format& format, std::uint64_t width, std::uint64_t height)
 {
-    if (format.bytes == 0)
-        return (width + 3) / 4 * ((height + 3) / 4) * format.blocks.block;
+    const std::uint64_t across = std::uint64_t(format.blocks.width), down = std::uint64_t(format.blocks.height);
+    if (format.hasBlocks())
+        return (width + across - 1) / across * ((height + down - 1) / down) * format.blocks.bytes();
     return width * height * std::uint64_t(format.channels * format.bytes);
 }
 
@@ -163,7 +203,7 @@ Result<Ktx2Image> checkKtx2(std::span<const std::byte> bytes)
 // A DDS file with one level.
 std::vector<std::byte> asDds(const Ktx2Image& picture, std::span<const std::byte> blocks)
 {
-    std::vector<std::byte> dds = ddsHeader(picture.format.blocks, picture.width, picture.height, 1);
+    std::vector<std::byte> dds = ddsHeader(picture.format.blocks.dds, picture.width, picture.height, 1);
     dds.insert(dds.end(), blocks.begin(), blocks.end());
     return dds;
 }
@@ -209,6 +249,20 @@ Image plainPixels(const Ktx2Image& picture, PixelType type, std::span<const std:
     return image;
 }
 
+Result<Image> decodedBlocks(const Ktx2Image& picture, PixelType type, std::span<const std::byte> blocks,
+                            const std::string& name, const LoadLimits& limits)
+{
+    const BlockFormat& format = picture.format.blocks;
+    if (format.dds.block != 0)
+        return readOther(asDds(picture, blocks), name, limits);
+    Image image = makeImage(picture.width, picture.height, type, name);
+    if (format.etc)
+        decodeEtc(*format.etc, blocks, image);
+    else if (const Status done = decodeAstc(format.width, format.height, blocks, image); !done)
+        return reworded(done.error(), name + ": " + done.error().message);
+    return image;
+}
+
 // Applies swizzle and orientation. A swizzle "rg.." of two channels changes nothing: blue is already set as for
 // normals.
 void arrange(const Ktx2Image& picture, Image& image)
@@ -247,9 +301,11 @@ std::string foreignKtx2(std::span<const std::byte> bytes)
         return "";
     if (format == 0) // colour model in the data format descriptor: 163 is ETC1S, 166 UASTC
         return file.at(file.at(48, 4) + 12, 1) == 166 ? "BasisU (UASTC)" : "BasisU (ETC1S)";
-    if (format >= 147 && format <= 156)
-        return "ETC2";
-    return (format >= 157 && format <= 184) || (format >= 1000066000 && format <= 1000066013) ? "ASTC" : "";
+    if (format == 154 || format == 156)
+        return "EAC with signed values";
+    if (format >= 1000066000 && format <= 1000066013)
+        return "ASTC with high dynamic range";
+    return format >= 157 && format <= 184 && !readsAstc() ? "ASTC" : "";
 }
 
 Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
@@ -278,8 +334,8 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
             return broken(done.error());
         plain = unpacked;
     }
-    Result<Image> image =
-        format.bytes > 0 ? plainPixels(*picture, type, plain, name) : readOther(asDds(*picture, plain), name, limits);
+    Result<Image> image = format.hasBlocks() ? decodedBlocks(*picture, type, plain, name, limits)
+                                             : Result<Image>(plainPixels(*picture, type, plain, name));
     if (image) {
         arrange(*picture, *image);
         image->frame = picture->frame;

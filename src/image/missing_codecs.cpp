@@ -1,6 +1,7 @@
 // Replaces functions of codecs.hpp whose library is missing (CMakeLists.txt).
 #include "codecs.hpp"
 #include "core/not_built.hpp"
+#include "image/astc.hpp"
 
 namespace cotan {
 
@@ -45,6 +46,15 @@ std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image&, std::s
 }
 
 std::string writeJpeg(const Image&, int) { return {}; }
+#endif
+
+#ifdef COTAN_WITHOUT_ASTC
+bool readsAstc() { return false; }
+Status decodeAstc(int, int, std::span<const std::byte>, Image&) { return notBuiltWith("libastcenc", "libastcenc-dev"); }
+Result<std::vector<std::byte>> encodeAstc(int, int, const Image&, bool)
+{
+    return notBuiltWith("libastcenc", "libastcenc-dev");
+}
 #endif
 
 #ifdef COTAN_WITHOUT_WEBP

@@ -120,49 +120,9 @@ void put(const Ends& ends, const Positions& positions, std::byte* to)
         to[2 + i] = std::byte(bits >> 8 * i & 0xff);
 }
 
-// Angular error of a unit vector after a small change of x and y: the squared angle is dx^2 + dy^2 + (u dx + v dy)^2
-// with u = x / z and v = y / z. Values are in codes, squared angles in squared codes.
-struct Texels {
-    Values x, y, u, v, weightX, weightY;
-};
-
-// Lower bound of z: near the horizon the angle grows with the square root of the change.
-constexpr float kMinZ = 0.08f;
-
-// Red and green of a block as codes. none: the code of a stored 0. one: the difference to that of a stored 1.
-void loadCodes(const Image& map, int left, int top, float none, float one, Values& x, Values& y)
-{
-    for (int i = 0; i < 16; ++i) {
-        const float* const texel = texelAt(map, left, top, i);
-        at(x, std::size_t(i)) = none + texel[0] * one;
-        at(y, std::size_t(i)) = none + texel[1] * one;
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-        x[i] = minOf(maxOf(x[i], kZero), kZero + 255);
-        y[i] = minOf(maxOf(y[i], kZero), kZero + 255);
-    }
-}
-
-Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale)
-{
-    Texels t{};
-    loadCodes(map, left, top, scale.zero - scale.unit, 2 * scale.unit, t.x, t.y);
-    const float inverse = 1 / scale.unit;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Four nx = (t.x[i] - scale.zero) * inverse, ny = (t.y[i] - scale.zero) * inverse;
-        const Four square = maxOf(1 - nx * nx - ny * ny, kZero + kMinZ * kMinZ);
-        const Four z = rootOf(square);
-        t.u[i] = nx / z;
-        t.v[i] = ny / z;
-        t.weightX[i] = 1 + t.u[i] * t.u[i];
-        t.weightY[i] = 1 + t.v[i] * t.v[i];
-    }
-    return t;
-}
-
 // Chooses for each texel, of the four pairs of positions around it, the one with the smallest angle. Returns the sum of
 // squared angles.
-float choosePositions(const Texels& t, const Ends& x, const Ends& y, Positions& positionsX, Positions& positionsY)
+float choosePositions(const NormalTexels& t, const Ends& x, const Ends& y, Positions& positionsX, Positions& positionsY)
 {
     const float stepX = float(x.high - x.low) / 7, stepY = float(y.high - y.low) / 7;
     const float inverseX = 1 / stepX, inverseY = 1 / stepY;
@@ -193,7 +153,7 @@ float choosePositions(const Texels& t, const Ends& x, const Ends& y, Positions& 
 }
 
 // Whether errors of x and y interact noticeably: for tilts of about 30 degrees and more.
-bool steep(const Texels& t)
+bool steep(const NormalTexels& t)
 {
     constexpr float kFrom = 0.3f;
     Four square{};
@@ -203,7 +163,7 @@ bool steep(const Texels& t)
 }
 
 // Changes each end of both channels by one if that reduces the angles.
-void refineTogether(const Texels& t, Ends& x, Ends& y, Positions& positionsX, Positions& positionsY)
+void refineTogether(const NormalTexels& t, Ends& x, Ends& y, Positions& positionsX, Positions& positionsY)
 {
     float error = choosePositions(t, x, y, positionsX, positionsY);
     for (Ends* const ends : {&x, &y})
@@ -222,7 +182,7 @@ void refineTogether(const Texels& t, Ends& x, Ends& y, Positions& positionsX, Po
         }
 }
 
-void encodeNormals(const Texels& t, std::byte* to)
+void encodeNormals(const NormalTexels& t, std::byte* to)
 {
     Ends x = fit(t.x, t.weightX), y = fit(t.y, t.weightY);
     Positions positionsX{}, positionsY{};
@@ -238,15 +198,15 @@ void encodeNormals(const Texels& t, std::byte* to)
 
 std::vector<std::byte> encodeBc5(const Image& map, const CodeScale& scale)
 {
-    return encodeBlocks(map, 16,
-                        [&](int left, int top, std::byte* to) { encodeNormals(texelsOf(map, left, top, scale), to); });
+    return encodeBlocks(
+        map, 16, [&](int left, int top, std::byte* to) { encodeNormals(normalTexels(map, left, top, scale), to); });
 }
 
 std::vector<std::byte> encodeBc4(const Image& image)
 {
     return encodeBlocks(image, 8, [&](int left, int top, std::byte* to) {
         Values values, unused;
-        loadCodes(image, left, top, 0, 255, values, unused);
+        loadCodes(image, left, top, 0, 255, 255, values, unused);
         Values ones;
         ones.fill(kZero + 1);
         const Ends ends = fit(values, ones);

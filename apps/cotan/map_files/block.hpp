@@ -1,4 +1,5 @@
-// Encoders for blocks of 4 x 4 texels: BC5 for two channels of normals, BC7 for three and alpha, BC4 for one channel.
+// Encoders for blocks of 4 x 4 texels: BC5 and EAC for two channels of normals, BC7 for three and alpha, BC4 for one
+// channel.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +23,12 @@ std::vector<std::byte> encodeBc5(const Image& map, const CodeScale& scale);
 // and alpha or, with `lengths`, of vectors and alpha. map: float32; red, green and blue are (n + 1) / 2. Blocks whose
 // alpha is 1 keep it exactly. The bytes do not depend on the number of threads.
 std::vector<std::byte> encodeBc7(const Image& map, const CodeScale& scale, bool lengths = false);
+
+// As encodeBc5, as EAC RG11: the codes of `scale` are those of 11 bits, 0 to 2047.
+std::vector<std::byte> encodeEacRg11(const Image& map, const CodeScale& scale);
+
+// Encodes red, 0 to 1, as EAC R11: 8 bytes per block, least squares. image: float32.
+std::vector<std::byte> encodeEacR11(const Image& image);
 
 // Encodes red, 0 to 1, as BC4: 8 bytes per block, least squares. image: float32.
 std::vector<std::byte> encodeBc4(const Image& image);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "block.hpp"
 #include "core/loops.hpp"
 #include "cotan/scene.hpp"
 
@@ -54,6 +55,45 @@ inline const float* texelAt(const Image& map, int left, int top, int i)
 {
     const int column = std::min(left + i % 4, map.width - 1), row = std::min(top + i / 4, map.height - 1);
     return map.floats() + 4 * (std::size_t(row) * std::size_t(map.width) + std::size_t(column));
+}
+
+// Red and green of a block as codes. none: the code of a stored 0. one: the difference to that of a stored 1. most: the
+// highest code.
+inline void loadCodes(const Image& map, int left, int top, float none, float one, float most, Values& x, Values& y)
+{
+    for (int i = 0; i < 16; ++i) {
+        const float* const texel = texelAt(map, left, top, i);
+        at(x, std::size_t(i)) = none + texel[0] * one;
+        at(y, std::size_t(i)) = none + texel[1] * one;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        x[i] = minOf(maxOf(x[i], kZero), kZero + most);
+        y[i] = minOf(maxOf(y[i], kZero), kZero + most);
+    }
+}
+
+// Angular error of a unit vector after a small change of x and y: the squared angle is dx^2 + dy^2 + (u dx + v dy)^2
+// with u = x / z and v = y / z. Values are in codes, squared angles in squared codes.
+struct NormalTexels {
+    Values x, y, u, v, weightX, weightY;
+};
+
+inline NormalTexels normalTexels(const Image& map, int left, int top, const CodeScale& scale, float most = 255)
+{
+    constexpr float kMinZ = 0.08f; // near the horizon the angle grows with the square root of the change
+    NormalTexels t{};
+    loadCodes(map, left, top, scale.zero - scale.unit, 2 * scale.unit, most, t.x, t.y);
+    const float inverse = 1 / scale.unit;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Four nx = (t.x[i] - scale.zero) * inverse, ny = (t.y[i] - scale.zero) * inverse;
+        const Four square = maxOf(1 - nx * nx - ny * ny, kZero + kMinZ * kMinZ);
+        const Four z = rootOf(square);
+        t.u[i] = nx / z;
+        t.v[i] = ny / z;
+        t.weightX[i] = 1 + t.u[i] * t.u[i];
+        t.weightY[i] = 1 + t.v[i] * t.v[i];
+    }
+    return t;
 }
 
 // Encodes all blocks, in rows from the top. encode(left, top, to): writes the block whose first texel is (left, top).

@@ -59,9 +59,10 @@ Result<Image> convertWhole(const std::filesystem::path& file, const RecodeSettin
 }
 
 // Writes a texture with one level.
-Status writeTexture(const std::filesystem::path& out, const Image& map, TexelCode code, const Convention& to)
+Status writeTexture(const std::filesystem::path& out, const Image& map, const TexelCode& code, const Convention& to)
 {
-    return writeTextureFile(out, code, {levelOf(map, code, to)}, map.frame);
+    COTAN_TRY(level, levelOf(map, code, to));
+    return writeTextureFile(out, code, {*std::move(level)}, map.frame);
 }
 
 // Image::frame of the result: in tangent space that of the mesh, else that of the map; in object space none.
@@ -112,7 +113,8 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
                                   .strength = o.strength,
                                   .normalise = o.normalise,
                                   .dither = o.dither};
-    ConvertedFile done{in.width, in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention};
+    ConvertedFile done{
+        in.width, in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention, storedConvention(*code, o.to)};
     if (!o.mesh && !isTextureFile(out)) {
         const Status streamed = convertByRows(*opened, out, settings, files, done);
         return streamed ? Result<ConvertedFile>(done) : streamed.error();

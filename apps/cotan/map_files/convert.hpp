@@ -23,7 +23,7 @@ struct ConvertFileOptions {
     StatedConvention from{};
     Convention to{};
     std::string bits = "auto";       // as for bitsFor; .dds and .ktx2 have 8
-    std::string compress = "none";   // .dds and .ktx2: "none", "bc5" (x and y of unit vectors) or "bc7" (x, y and z)
+    std::string compress = "none";   // .dds and .ktx2: a word of compressionWords
     float strength = 1;              // factor on the slopes, not 0; negative values turn bumps into dents
     bool normalise = false;          // three channels to three; if false, lengths are kept
     bool dither = false;             // adds half a step of noise before rounding
@@ -38,7 +38,7 @@ struct ConvertedFile {
     // Image::frame of the result, stored in .png, .exr and .ktx2: that of the map; from object space that of the mesh;
     // to object space none.
     std::string frame = {};
-    Convention from{};                   // how the map was read
+    Convention from{}, to{};             // how the map was read, and how the result is stored
     std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
 };
 

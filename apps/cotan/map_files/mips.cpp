@@ -17,7 +17,7 @@ using namespace maps;
 namespace {
 
 // The normals of a level with its roughness in alpha.
-TextureLevel levelWithRoughness(const MipLevel& level, TexelCode code, const MipFileOptions& o)
+Result<TextureLevel> levelWithRoughness(const MipLevel& level, const TexelCode& code, const MipFileOptions& o)
 {
     Image both = level.normals;
     for (std::size_t i = 0; i < both.pixelCount(); ++i)
@@ -33,25 +33,29 @@ std::filesystem::path marked(const std::filesystem::path& file, const std::strin
     return file.parent_path() / (file.stem().string() + mark + file.extension().string());
 }
 
-// Writes one file, or two with bc5, which has no channel for the roughness.
-Status writeTextures(const std::filesystem::path& out, const std::vector<MipLevel>& chain, TexelCode code,
+// Writes one file, or two with blocks that have no channel for the roughness.
+Status writeTextures(const std::filesystem::path& out, const std::vector<MipLevel>& chain, const TexelCode& code,
                      const MipFileOptions& o)
 {
     std::vector<TextureLevel> normals, roughness;
-    if (code != TexelCode::bc5) {
-        for (const MipLevel& level : chain)
-            normals.push_back(levelWithRoughness(level, code, o));
+    if (!code.twoChannels()) {
+        for (const MipLevel& level : chain) {
+            COTAN_TRY(both, levelWithRoughness(level, code, o));
+            normals.push_back(*std::move(both));
+        }
         return writeTextureFile(out, code, normals, chain[0].normals.frame);
     }
     const std::filesystem::path second = marked(out, "_roughness");
     if (o.mayWrite)
         COTAN_CHECK(o.mayWrite(second));
+    const TexelCode grey = code == TexelCode::bc5 ? TexelCode::bc4 : TexelCode::eacR11;
     for (const MipLevel& level : chain) {
-        normals.push_back(levelOf(level.normals, code, *o.to));
-        roughness.push_back(bc4Level(level.roughness));
+        COTAN_TRY(made, levelOf(level.normals, code, *o.to));
+        normals.push_back(*std::move(made));
+        roughness.push_back(greyLevel(level.roughness, grey));
     }
-    COTAN_CHECK(writeTextureFile(out, TexelCode::bc5, normals, chain[0].normals.frame));
-    return writeTextureFile(second, TexelCode::bc4, roughness);
+    COTAN_CHECK(writeTextureFile(out, code, normals, chain[0].normals.frame));
+    return writeTextureFile(second, grey, roughness);
 }
 
 std::filesystem::path numbered(const std::filesystem::path& file, const char* mark, std::size_t level)
@@ -83,7 +87,8 @@ Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>&
 }
 
 // Blocks are made from floats.
-Result<Bits> bitsOfMips(TexelCode code, PixelType input, const std::filesystem::path& out, const MipFileOptions& o)
+Result<Bits> bitsOfMips(const TexelCode& code, PixelType input, const std::filesystem::path& out,
+                        const MipFileOptions& o)
 {
     if (code != TexelCode::rgba8)
         return Bits{PixelType::float32, false};
@@ -101,8 +106,9 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
                              const MipFileOptions& requested, const FileOptions& files)
 {
     MipFileOptions o = requested;
-    if (o.compress == "bc5" && o.keepLengths)
-        return about("options.keepLengths", usageError("bc5 has no channel for lengths"));
+    if (o.compress != "none" && o.compress != "bc7" && o.keepLengths)
+        return about("options.keepLengths",
+                     usageError(fmt::format("expected blocks with a channel for lengths, bc7; found {}", o.compress)));
     if (o.to) // fails before the work
         if (const auto code = codeFor(o.compress, o.bits, *o.to, out); !code)
             return code.error();

@@ -1,15 +1,21 @@
 #include "texture_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "block.hpp"
+#include "core/try.hpp"
 #include "files/output.hpp"
+#include "image/astc.hpp"
 #include "image/checks.hpp"
 #include "image/dds.hpp"
 #include "image/format_table.hpp"
@@ -26,15 +32,41 @@ struct CodeFacts {
     std::vector<std::uint32_t> channels;
 };
 
-CodeFacts factsOf(TexelCode code)
+// Of ASTC, in the order of their VkFormats from 157 on, which alternate with those of sRGB.
+constexpr std::array<TexelCode, 8> kAstc{{{4, 4}, {5, 4}, {5, 5}, {6, 5}, {6, 6}, {8, 5}, {8, 6}, {8, 8}}};
+
+CodeFacts factsOf(const TexelCode& code)
 {
-    switch (code) {
+    switch (code.kind) {
     case TexelCode::bc5: return {83, 141, 16, 132, {0, 1}};
     case TexelCode::bc7: return {98, 145, 16, 134, {0}};
     case TexelCode::bc4: return {80, 139, 8, 131, {0}};
+    case TexelCode::eacRg11: return {0, 155, 16, 161, {0, 1}};
+    case TexelCode::eacR11: return {0, 153, 8, 161, {0}};
+    case TexelCode::astc:
+        for (std::uint32_t i = 0; i < kAstc.size(); ++i)
+            if (kAstc[i].width == code.width && kAstc[i].height == code.height)
+                return {0, 157 + 2 * i, 16, 162, {0}};
+        break;
     case TexelCode::rgba8: break;
     }
     return {0, 37, 4, 1, {0, 1, 2, 15}};
+}
+
+std::string astcWord(const TexelCode& code) { return fmt::format("astc-{}x{}", code.width, code.height); }
+
+constexpr std::pair<const char*, TexelCode::Kind> kCodes[] = {
+    {"none", TexelCode::rgba8}, {"bc5", TexelCode::bc5}, {"bc7", TexelCode::bc7}, {"eac-rg11", TexelCode::eacRg11}};
+
+std::optional<TexelCode> codeNamed(const std::string& word)
+{
+    for (const auto& [name, kind] : kCodes)
+        if (word == name)
+            return kind;
+    for (const TexelCode& code : kAstc)
+        if (word == astcWord(code))
+            return code;
+    return std::nullopt;
 }
 
 void append(std::string& bytes, const std::vector<std::byte>& more)
@@ -48,7 +80,7 @@ void appendNumber(std::string& bytes, std::uint64_t number, int size)
         bytes += char(number >> 8 * i & 0xff);
 }
 
-std::string ddsBytes(TexelCode code, const std::vector<TextureLevel>& levels)
+std::string ddsBytes(const TexelCode& code, const std::vector<TextureLevel>& levels)
 {
     const CodeFacts facts = factsOf(code);
     const DdsCode stored = code == TexelCode::rgba8 ? DdsCode{} : DdsCode{"DX10", facts.dxgi, facts.bytes};
@@ -60,7 +92,7 @@ std::string ddsBytes(TexelCode code, const std::vector<TextureLevel>& levels)
 }
 
 // The basic data format descriptor of the Khronos Data Format 1.3: linear values, one sample per channel.
-std::string descriptor(TexelCode code, const CodeFacts& facts)
+std::string descriptor(const TexelCode& code, const CodeFacts& facts)
 {
     const bool blocks = code != TexelCode::rgba8;
     const std::size_t size = 24 + 16 * facts.channels.size();
@@ -73,8 +105,9 @@ std::string descriptor(TexelCode code, const CodeFacts& facts)
     appendNumber(d, 1, 1); // BT.709 primaries
     appendNumber(d, 1, 1); // linear transfer function
     appendNumber(d, 0, 1);
-    appendNumber(d, blocks ? 0x0303 : 0, 4); // block size minus one: 4 x 4 or 1 x 1
-    appendNumber(d, facts.bytes, 8);         // bytes of the first plane
+    const auto block = std::uint64_t(code.width - 1) | std::uint64_t(code.height - 1) << 8;
+    appendNumber(d, blocks ? block : 0, 4); // size of a block minus one
+    appendNumber(d, facts.bytes, 8);        // bytes of the first plane
     const std::size_t bits = facts.bytes * 8 / facts.channels.size();
     for (std::size_t i = 0; i < facts.channels.size(); ++i) {
         appendNumber(d, i * bits, 2);
@@ -87,11 +120,13 @@ std::string descriptor(TexelCode code, const CodeFacts& facts)
 }
 
 // Header, level index, descriptor, keys, and the levels, smallest first.
-std::string ktx2Bytes(TexelCode code, const std::vector<TextureLevel>& levels, const std::string& frame)
+std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& levels, const std::string& frame)
 {
     const CodeFacts facts = factsOf(code);
     std::string dataFormat = descriptor(code, facts), keys;
     std::vector<std::string> entries = {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)};
+    if (code.two) // red, red, red, green: x is in red, y in alpha
+        entries.insert(entries.begin() + 1, std::string("KTXswizzle\0ra01", 16));
     if (!frame.empty()) // last, since keys are sorted; null-terminated like the others
         entries.push_back(std::string(kFrameKey) + '\0' + frame + '\0');
     for (const std::string& entry : entries) {
@@ -133,36 +168,73 @@ CodeScale scaleOf(Expansion expansion)
     return expansion == Expansion::exact16 ? CodeScale{255 * 32768 / 65535.0f, 255 * 32767 / 65535.0f} : CodeScale{};
 }
 
+// The same for codes of 11 bits, which are read as 16 bits: their exact zero is the one of 16.
+CodeScale scaleOf11(Expansion expansion)
+{
+    const CodeScale eight = scaleOf(expansion == Expansion::biased ? expansion : Expansion::exact16);
+    return {eight.zero / 255 * 2047, eight.unit / 255 * 2047};
+}
+
+// Stored as `scale` decodes it.
+Image scaled(Image image, const CodeScale& scale)
+{
+    for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i)
+        if (i % 4 != 3)
+            image.floats()[i] = (scale.zero + (2 * image.floats()[i] - 1) * scale.unit) / 255;
+    return image;
+}
+
 } // namespace
 
 bool isTextureFile(const std::filesystem::path& file) { return imageFormatHas(file, &ImageFormat::texture); }
 
-Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels,
-                        const std::string& frame)
+std::vector<std::string> compressionWords()
+{
+    std::vector<std::string> words;
+    for (const auto& [name, kind] : kCodes)
+        words.emplace_back(name);
+    for (const TexelCode& code : kAstc)
+        words.push_back(astcWord(code));
+    return words;
+}
+
+Status writeTextureFile(const std::filesystem::path& file, const TexelCode& code,
+                        const std::vector<TextureLevel>& levels, const std::string& frame)
 {
     const bool dds = imageFormatOf(file)->name == "DDS";
     return writeFileWhole(file, dds ? ddsBytes(code, levels) : ktx2Bytes(code, levels, frame));
 }
 
-TextureLevel levelOf(const Image& image, TexelCode code, const Convention& to, bool lengths)
+Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Convention& to, bool lengths)
 {
     TextureLevel level{image.width, image.height, {}};
     if (code == TexelCode::bc5)
         level.texels = encodeBc5(image, scaleOf(to.expansion));
     else if (code == TexelCode::bc7)
         level.texels = encodeBc7(image, scaleOf(to.expansion), lengths);
-    else
+    else if (code == TexelCode::eacRg11)
+        level.texels = encodeEacRg11(image, scaleOf11(to.expansion));
+    else if (code.kind == TexelCode::astc) {
+        COTAN_TRY(blocks, encodeAstc(code.width, code.height, scaled(image, scaleOf(to.expansion)), code.two));
+        level.texels = *std::move(blocks);
+    } else
         level.texels = image.data;
     return level;
 }
 
-TextureLevel bc4Level(const Image& image) { return {image.width, image.height, encodeBc4(image)}; }
+TextureLevel greyLevel(const Image& image, const TexelCode& code)
+{
+    return {image.width, image.height, code == TexelCode::bc4 ? encodeBc4(image) : encodeEacR11(image)};
+}
 
 Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, const Convention& to,
                           const std::filesystem::path& file)
 {
-    if (compress != "none" && compress != "bc5" && compress != "bc7")
-        return about("options.compress", usageError(fmt::format("expected none, bc5 or bc7; found '{}'", compress)));
+    std::optional<TexelCode> code = codeNamed(compress);
+    if (!code)
+        return about(
+            "options.compress",
+            usageError(fmt::format("expected one of {}; found '{}'", fmt::join(compressionWords(), ", "), compress)));
     if (!isTextureFile(file) && compress != "none")
         return about(
             "options.compress",
@@ -172,25 +244,40 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
         return about("options.bits",
                      usageError(fmt::format("expected 8 or auto, as {} files have 8 bits; found '{}'",
                                             imageFormatOf(file)->endings[0], bits)));
-    if (compress == "bc5" && (to.channels == Channels::stereographic || to.channels == Channels::slope))
-        return about("options.to", usageError("bc5 holds x and y of unit vectors; found another form of two channels"));
+    const bool mobile = code->kind == TexelCode::eacRg11 || code->kind == TexelCode::astc;
+    if (mobile && imageFormatOf(file)->name != "KTX2")
+        return about("options.compress",
+                     usageError(fmt::format("{} is for .ktx2 files; found '{}'", compress, file.extension().string())));
+    const bool other = to.channels == Channels::stereographic || to.channels == Channels::slope;
+    if (compress != "none" && compress != "bc7" && other)
+        return about("options.to",
+                     usageError(fmt::format("{} holds x and y of unit vectors; found another form of two "
+                                            "channels",
+                                            compress)));
     if (compress == "bc7" && to.channels != Channels::xyz)
         return about("options.to", usageError("bc7 holds x, y and z; found two channels, which bc5 is for"));
+    code->two = code->kind == TexelCode::astc && to.channels != Channels::xyz;
     if (isTextureFile(file) && to.expansion == Expansion::signedValues)
         return about("options.to",
                      usageError(fmt::format("signed values need a {} of floats",
                                             imageEndings(&ImageFormat::negative, ", ", " or "))));
-    return compress == "bc5" ? TexelCode::bc5 : compress == "bc7" ? TexelCode::bc7 : TexelCode::rgba8;
+    return *code;
 }
 
-Convention codeConvention(TexelCode code, const Convention& to)
+Convention codeConvention(const TexelCode& code, const Convention& to)
 {
-    Convention taken = to;
-    if (code == TexelCode::bc5)
-        taken.channels = Channels::orthographic;
-    if (code != TexelCode::rgba8)
+    Convention taken = storedConvention(code, to);
+    if (code.kind != TexelCode::rgba8)
         taken.expansion = Expansion::biased;
     return taken;
+}
+
+Convention storedConvention(const TexelCode& code, const Convention& to)
+{
+    Convention stored = to;
+    if (code.twoChannels())
+        stored.channels = Channels::orthographic;
+    return stored;
 }
 
 } // namespace cotan::app

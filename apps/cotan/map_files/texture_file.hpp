@@ -11,7 +11,23 @@
 
 namespace cotan::app {
 
-enum class TexelCode { rgba8, bc5, bc7, bc4 };
+// How texels are stored: pixels, or blocks.
+struct TexelCode {
+    enum Kind { rgba8, bc5, bc7, bc4, eacRg11, eacR11, astc };
+    Kind kind = rgba8;
+    int width = 4, height = 4; // texels of a block
+    bool two = false;          // of astc: x and y only, as luminance and alpha
+
+    constexpr TexelCode(Kind k = rgba8) : kind(k) {} // NOLINT(google-explicit-constructor)
+    constexpr TexelCode(int w, int h) : kind(astc), width(w), height(h) {}
+    friend bool operator==(const TexelCode&, const TexelCode&) = default;
+
+    // Blocks without a channel for the roughness, which then has a file of its own.
+    bool twoChannels() const { return kind == bc5 || kind == eacRg11 || two; }
+};
+
+// The words of --compress: none, bc5, bc7, eac-rg11, astc-4x4 to astc-8x8.
+std::vector<std::string> compressionWords();
 
 struct TextureLevel {
     int width = 0, height = 0;
@@ -23,22 +39,26 @@ bool isTextureFile(const std::filesystem::path& file);
 
 // Writes a texture. levels: the largest first, each half as large as the one before. frame: Image::frame, which only
 // KTX2 stores. Errors: as writeFileWhole.
-Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels,
-                        const std::string& frame = {});
+Status writeTextureFile(const std::filesystem::path& file, const TexelCode& code,
+                        const std::vector<TextureLevel>& levels, const std::string& frame = {});
 
 // Normals as a level of a texture that is read as `to`. image: in codeConvention; unorm8 for rgba8, else float32.
-// lengths: for bc7, keeps the lengths of vectors.
-TextureLevel levelOf(const Image& image, TexelCode code, const Convention& to, bool lengths = false);
+// lengths: for bc7, keeps the lengths of vectors. Errors: ErrorKind::unavailable for ASTC in a build without it.
+Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Convention& to, bool lengths = false);
 
-// Red as a BC4 level. image: float32.
-TextureLevel bc4Level(const Image& image);
+// Red as a level of one channel: bc4 or eacR11. image: float32.
+TextureLevel greyLevel(const Image& image, const TexelCode& code);
 
-// Parses "none", "bc5" or "bc7" for a file. Errors (ErrorKind::usage): "options.compress: ", "options.to: " and
+// Parses a word of --compress for a file. Errors (ErrorKind::usage): "options.compress: ", "options.to: " and
 // "options.bits: ".
 Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, const Convention& to,
                           const std::filesystem::path& file);
 
-// The convention in which levelOf expects normals that are read as `to`: blocks need 2c - 1, bc5 also two channels.
-Convention codeConvention(TexelCode code, const Convention& to);
+// The convention in which levelOf expects normals that are read as `to`: blocks need 2c - 1, those of two channels also
+// x and y only.
+Convention codeConvention(const TexelCode& code, const Convention& to);
+
+// The convention that the written file has.
+Convention storedConvention(const TexelCode& code, const Convention& to);
 
 } // namespace cotan::app

@@ -178,8 +178,8 @@ struct Texture {
 };
 
 // Extensions that supply a texture's image in another format, which is read here.
-inline constexpr std::array<std::string_view, 3> kReadImageExtensions{"EXT_texture_webp", "MSFT_texture_dds",
-                                                                      "KHR_texture_basisu"};
+inline constexpr std::array<std::string_view, 4> kReadImageExtensions{"EXT_texture_webp", "MSFT_texture_dds",
+                                                                      "KHR_texture_basisu", "EXT_texture_astc"};
 
 struct Image {
     std::string name;

@@ -1,0 +1,212 @@
+#include "image/etc.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace cotan {
+
+namespace {
+
+using Texels = std::array<glm::ivec4, 16>; // by rows; 8 bits, or 16 of EAC
+
+// The bits of a block, whose first byte is the highest.
+std::uint64_t bitsOf(const std::byte* block)
+{
+    std::uint64_t bits = 0;
+    for (int i = 0; i < 8; ++i)
+        bits = bits << 8 | std::uint64_t(block[i]);
+    return bits;
+}
+
+// `count` bits, of which `lowest` is the lowest.
+int field(std::uint64_t bits, int lowest, int count) { return int(bits >> lowest & ((1u << count) - 1)); }
+
+// Texel i of the bits of a block is at column i / 4, row i % 4.
+int placeOf(int i) { return i % 4 * 4 + i / 4; }
+
+// Repeats the highest bits below the lowest, so that the largest value becomes 255.
+int from4(int value) { return value * 17; }
+int from5(int value) { return value << 3 | value >> 2; }
+int from6(int value) { return value << 2 | value >> 4; }
+int from7(int value) { return value << 1 | value >> 6; }
+
+glm::ivec4 clamped(const glm::ivec3& color) { return {glm::clamp(color, 0, 255), 255}; }
+
+// ---- colours --------------------------------------------------------------------------------
+
+// A texel has an index of two bits: the high ones of all texels are bits 16 to 31, the low ones bits 0 to 15.
+int indexOf(std::uint64_t bits, int i) { return field(bits, 16 + i, 1) << 1 | field(bits, i, 1); }
+
+constexpr std::array<std::array<int, 2>, 8> kModifiers{
+    {{2, 8}, {5, 17}, {9, 29}, {13, 42}, {18, 60}, {24, 80}, {33, 106}, {47, 183}}};
+constexpr std::array<int, 8> kDistances{3, 6, 11, 16, 23, 32, 41, 64};
+constexpr glm::ivec4 kTransparent{0, 0, 0, 0};
+
+// Two halves, each of one colour that every texel makes lighter or darker.
+void decodeHalves(std::uint64_t bits, const std::array<glm::ivec3, 2>& colors, bool opaque, Texels& texels)
+{
+    const std::array<int, 2> tables{field(bits, 37, 3), field(bits, 34, 3)};
+    const bool flipped = field(bits, 32, 1) != 0;
+    for (int i = 0; i < 16; ++i) {
+        const int half = (flipped ? i % 4 : i / 4) / 2, index = indexOf(bits, i);
+        const auto& [small, large] = kModifiers[std::size_t(tables[std::size_t(half)])];
+        const int size = index % 2 != 0 ? large : opaque ? small : 0;
+        texels[std::size_t(placeOf(i))] =
+            !opaque && index == 2 ? kTransparent : clamped(colors[std::size_t(half)] + (index / 2 != 0 ? -size : size));
+    }
+}
+
+void decodePaints(std::uint64_t bits, const std::array<glm::ivec3, 4>& paints, bool opaque, Texels& texels)
+{
+    for (int i = 0; i < 16; ++i) {
+        const int index = indexOf(bits, i);
+        texels[std::size_t(placeOf(i))] = !opaque && index == 2 ? kTransparent : clamped(paints[std::size_t(index)]);
+    }
+}
+
+glm::ivec3 rgb4(int red, int green, int blue) { return {from4(red), from4(green), from4(blue)}; }
+
+// Modes "T" and "H" of ETC2: four colours from two.
+void decodeT(std::uint64_t bits, bool opaque, Texels& texels)
+{
+    const glm::ivec3 one = rgb4(field(bits, 59, 2) << 2 | field(bits, 56, 2), field(bits, 52, 4), field(bits, 48, 4));
+    const glm::ivec3 other = rgb4(field(bits, 44, 4), field(bits, 40, 4), field(bits, 36, 4));
+    const int distance = kDistances[std::size_t(field(bits, 34, 2) << 1 | field(bits, 32, 1))];
+    decodePaints(bits, {one, other + distance, other, other - distance}, opaque, texels);
+}
+
+void decodeH(std::uint64_t bits, bool opaque, Texels& texels)
+{
+    const std::array<int, 3> one{field(bits, 59, 4), field(bits, 56, 3) << 1 | field(bits, 52, 1),
+                                 field(bits, 51, 1) << 3 | field(bits, 47, 3)};
+    const std::array<int, 3> other{field(bits, 43, 4), field(bits, 39, 4), field(bits, 35, 4)};
+    const int index = field(bits, 34, 1) << 2 | field(bits, 32, 1) << 1 | (one >= other ? 1 : 0);
+    const int distance = kDistances[std::size_t(index)];
+    const glm::ivec3 a = rgb4(one[0], one[1], one[2]), b = rgb4(other[0], other[1], other[2]);
+    decodePaints(bits, {a + distance, a - distance, b + distance, b - distance}, opaque, texels);
+}
+
+// A plane through three colours: at the origin, four texels to the right, four below.
+void decodePlanar(std::uint64_t bits, Texels& texels)
+{
+    const glm::ivec3 origin{from6(field(bits, 57, 6)), from7(field(bits, 56, 1) << 6 | field(bits, 49, 6)),
+                            from6(field(bits, 48, 1) << 5 | field(bits, 43, 2) << 3 | field(bits, 39, 3))};
+    const glm::ivec3 right{from6(field(bits, 34, 5) << 1 | field(bits, 32, 1)), from7(field(bits, 25, 7)),
+                           from6(field(bits, 19, 6))};
+    const glm::ivec3 below{from6(field(bits, 13, 6)), from7(field(bits, 6, 7)), from6(field(bits, 0, 6))};
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) {
+            const glm::ivec3 sum = x * (right - origin) + y * (below - origin) + 4 * origin + 2;
+            texels[std::size_t(4 * y + x)] = clamped({sum.x >> 2, sum.y >> 2, sum.z >> 2});
+        }
+}
+
+// punched: alpha is 0 or 1, and all colours are differences.
+void decodeColors(std::uint64_t bits, bool punched, Texels& texels)
+{
+    const bool flag = field(bits, 33, 1) != 0, opaque = !punched || flag;
+    std::array<glm::ivec3, 2> colors;
+    if (!punched && !flag) {
+        for (int c = 0; c < 3; ++c) {
+            colors[0][c] = from4(field(bits, 60 - 8 * c, 4));
+            colors[1][c] = from4(field(bits, 56 - 8 * c, 4));
+        }
+        return decodeHalves(bits, colors, opaque, texels);
+    }
+    glm::ivec3 second;
+    for (int c = 0; c < 3; ++c) {
+        const int first = field(bits, 59 - 8 * c, 5), difference = field(bits, 56 - 8 * c, 3);
+        second[c] = first + (difference >= 4 ? difference - 8 : difference);
+        colors[0][c] = from5(first);
+        colors[1][c] = from5(second[c] & 31);
+    }
+    const auto outside = [](int value) { return value < 0 || value > 31; }; // another mode of ETC2
+    if (outside(second.x))
+        decodeT(bits, opaque, texels);
+    else if (outside(second.y))
+        decodeH(bits, opaque, texels);
+    else if (outside(second.z))
+        decodePlanar(bits, texels);
+    else
+        decodeHalves(bits, colors, opaque, texels);
+}
+
+// ---- one channel ----------------------------------------------------------------------------
+
+int modifierOf(std::uint64_t bits, int i)
+{
+    return kEacModifiers[std::size_t(field(bits, 48, 4))][std::size_t(field(bits, 45 - 3 * i, 3))];
+}
+
+// Alpha of 8 bits, or another channel of 11 bits, which becomes one of 16.
+void decodeChannel(std::uint64_t bits, bool eleven, int channel, Texels& texels)
+{
+    const int base = field(bits, 56, 8), factor = field(bits, 52, 4);
+    for (int i = 0; i < 16; ++i) {
+        int value = std::clamp(base + modifierOf(bits, i) * factor, 0, 255);
+        if (eleven) {
+            const int in2047 = std::clamp(8 * base + 4 + modifierOf(bits, i) * (factor > 0 ? 8 * factor : 1), 0, 2047);
+            value = (in2047 * 65535 + 1023) / 2047;
+        }
+        texels[std::size_t(placeOf(i))][channel] = value;
+    }
+}
+
+void decodeBlock(EtcCode code, const std::byte* block, Texels& texels)
+{
+    switch (code) {
+    case EtcCode::rgb: return decodeColors(bitsOf(block), false, texels);
+    case EtcCode::rgbPunchedAlpha: return decodeColors(bitsOf(block), true, texels);
+    case EtcCode::rgba:
+        decodeColors(bitsOf(block + 8), false, texels);
+        return decodeChannel(bitsOf(block), false, 3, texels);
+    case EtcCode::r11:
+        decodeChannel(bitsOf(block), true, 0, texels);
+        for (glm::ivec4& t : texels)
+            t = {t.x, t.x, t.x, 65535};
+        return;
+    case EtcCode::rg11:
+        decodeChannel(bitsOf(block), true, 0, texels);
+        decodeChannel(bitsOf(block + 8), true, 1, texels);
+        for (glm::ivec4& t : texels)
+            t = {t.x, t.y, 32768, 65535};
+        return;
+    }
+}
+
+template<class T> void decodeRows(EtcCode code, std::span<const std::byte> blocks, T* to, int width, int height)
+{
+    const std::size_t bytes = etcBytes(code);
+    const int across = (width + 3) / 4, down = (height + 3) / 4;
+    Texels texels{};
+    for (int row = 0; row < down; ++row)
+        for (int column = 0; column < across; ++column) {
+            const std::size_t block = std::size_t(row) * std::size_t(across) + std::size_t(column);
+            decodeBlock(code, blocks.data() + block * bytes, texels);
+            for (int y = 0; y < std::min(4, height - 4 * row); ++y)
+                for (int x = 0; x < std::min(4, width - 4 * column); ++x) {
+                    const std::size_t at = std::size_t(4 * row + y) * std::size_t(width) + std::size_t(4 * column + x);
+                    for (int c = 0; c < 4; ++c)
+                        to[4 * at + std::size_t(c)] = T(texels[std::size_t(4 * y + x)][c]);
+                }
+        }
+}
+
+} // namespace
+
+std::size_t etcBytes(EtcCode code) { return code == EtcCode::rgba || code == EtcCode::rg11 ? 16 : 8; }
+
+void decodeEtc(EtcCode code, std::span<const std::byte> blocks, Image& image)
+{
+    if (code == EtcCode::r11 || code == EtcCode::rg11)
+        decodeRows(code, blocks, reinterpret_cast<std::uint16_t*>(image.data.data()), image.width, image.height);
+    else
+        decodeRows(code, blocks, image.bytes8(), image.width, image.height);
+}
+
+} // namespace cotan
