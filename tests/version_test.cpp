@@ -22,6 +22,7 @@ TEST(Version, isTheSameInEveryFile)
     for (const Copy& copy : std::vector<Copy>{{"CITATION.cff", "\nversion: "},
                                               {"bindings/python/cotan/_version.py", "__version__ = \""},
                                               {"cmake/packages/changelog.in", "^cotan \\("},
+                                              {"integrations/blender/cotan_blender/blender_manifest.toml", "\nversion = \""},
                                               {"README.md", "cotan-"},
                                               {"bindings/js/README.md", "cotan-"},
                                               {"bindings/js/types/tangents.d.ts", "version of the library, \""},
