@@ -1,11 +1,8 @@
 // Stands for a program that has another version of Embree and exports its functions: each ends the program.
 #include <cstdlib>
 
-#define COTAN_OTHER(name)  \
-    extern "C" void name() \
-    {                      \
-        std::abort();      \
-    }
+#define COTAN_OTHER(name)                                                                                              \
+    extern "C" void name() { std::abort(); }
 COTAN_OTHER(rtcAttachGeometry)
 COTAN_OTHER(rtcCommitGeometry)
 COTAN_OTHER(rtcCommitScene)
