@@ -24,6 +24,18 @@ foreach(program example_c c_old_names)
   target_link_libraries(${program} PRIVATE cotan_c m)
 endforeach()
 add_test(NAME CApi.exampleInCRuns COMMAND example_c)
+# libcotan bakes with its own Embree in a program that exports another, as Blender does. It needs none of the program's
+# functions but the one that keeps the library.
+get_target_property(sources cotan_c SOURCES)
+if("own_embree.cpp" IN_LIST sources)
+  add_library(other_embree SHARED other_embree.cpp)
+  add_test(NAME CApi.bakesInAProgramThatHasAnotherEmbree COMMAND example_c)
+  set_tests_properties(CApi.bakesInAProgramThatHasAnotherEmbree PROPERTIES
+    ENVIRONMENT LD_PRELOAD=$<TARGET_FILE:other_embree> PASS_REGULAR_EXPRESSION "baked 204 128 230")
+  add_test(NAME CApi.looksUpAllFunctionsOfEmbree COMMAND sh -c "nm -D '$<TARGET_FILE:cotan_c>' | grep ' U rtc'")
+  set_tests_properties(CApi.looksUpAllFunctionsOfEmbree PROPERTIES
+    PASS_REGULAR_EXPRESSION "^ *U rtcRetainDevice\n?$" FAIL_REGULAR_EXPRESSION "rtc[A-QS-Z]")
+endif()
 add_test(NAME CApi.sourceOfTheLastVersionCompilesAndRuns COMMAND c_old_names)
 # The same on Windows, under Wine.
 cotan_door(CApi.worksOnWindows COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-windows ${PROJECT_BINARY_DIR}/windows $<TARGET_FILE:example_c>)

@@ -51,12 +51,11 @@ message("${{COTAN_REPOSITORY}}|${{COTAN_MAINTAINER}}|${{COTAN_PROJECT_URL_LINE}}
 
 def blender_addon(folder, text):
     (folder / "CITATION.cff").write_text(text)
-    library = folder / "libcotan.so"
-    library.touch()
+    library = next(pathlib.Path("/lib").glob("*-linux-gnu/libz.so.1"))
     subprocess.run([SOURCES / "scripts/blender-addon", folder / "addon"], check=True, capture_output=True,
                    env=dict(os.environ, COTAN_CITATION=str(folder / "CITATION.cff"), LIBRARY=str(library)))
     shutil.unpack_archive(folder / "addon/cotan_blender.zip", folder / "unpacked")
-    return (folder / "unpacked/cotan_blender/__init__.py").read_text()
+    return [(folder / "unpacked/cotan_blender" / name).read_text() for name in ("__init__.py", "blender_manifest.toml")]
 
 
 def nobodyIsNamedWhileNobodyPublishes(folder):
@@ -64,7 +63,8 @@ def nobodyIsNamedWhileNobodyPublishes(folder):
     made = made_by_cmake(folder, EMPTY)
     assert "Unpublished build of Cotan <nobody@cotan.invalid>" in made, made
     assert not re.search("^Source:|Project-URL|@COTAN", made, re.M), made
-    assert "tracker_url" not in blender_addon(folder, EMPTY)
+    init, manifest = blender_addon(folder, EMPTY)
+    assert "tracker_url" not in init and "website" not in manifest
 
 
 def everythingNamesWhoPublishes(folder):
@@ -73,7 +73,8 @@ def everythingNamesWhoPublishes(folder):
     for line in (f"Source: {URL}\n", f" -- The Cotan authors <{MAIL}>  ", f"Project-URL: Repository, {URL}\n"):
         assert line in made, line
     assert "invalid" not in made
-    init = blender_addon(folder, FILLED)
+    init, manifest = blender_addon(folder, FILLED)
+    assert f'website = "{URL}"\n' in manifest, manifest
     assert f'    "tracker_url": "{URL}",\n    "category": "Render",\n}}' in init, init[:900]
 
 

@@ -15,7 +15,8 @@ from tracked import tracked
 SOURCES, BUILD = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 # Programs that a script may not start before it has checked its arguments.
 STARTED = ("cmake ninja ctest cpack npm npx node emcc apt-get apt sudo debootstrap blender f3d xvfb-run gcc g++ c++ clang++ "
-           "clang-format clang-tidy oiiotool valgrind wine pip dpkg-deb git-clone mount chroot perf gdb").split()
+           "clang-format clang-tidy oiiotool valgrind wine pip dpkg-deb git-clone mount chroot perf gdb "
+           "buildah patchelf sha256sum").split()
 # Maintainer scripts of Debian, which dpkg calls, and scripts that are parts of one test.
 NOT_OURS = ("cmake/packages/", "tests/")
 

@@ -19,13 +19,15 @@ struct Copy {
 TEST(Version, isTheSameInEveryFile)
 {
     const std::string number = R"((\d+\.\d+\.\d+))";
-    for (const Copy& copy : std::vector<Copy>{{"CITATION.cff", "\nversion: "},
-                                              {"bindings/python/cotan/_version.py", "__version__ = \""},
-                                              {"cmake/packages/changelog.in", "^cotan \\("},
-                                              {"README.md", "cotan-"},
-                                              {"bindings/js/README.md", "cotan-"},
-                                              {"bindings/js/types/tangents.d.ts", "version of the library, \""},
-                                              {"src/c/include/cotan.h", "/\\* \""}}) {
+    for (const Copy& copy :
+         std::vector<Copy>{{"CITATION.cff", "\nversion: "},
+                           {"bindings/python/cotan/_version.py", "__version__ = \""},
+                           {"cmake/packages/changelog.in", "^cotan \\("},
+                           {"integrations/blender/cotan_blender/blender_manifest.toml", "\nversion = \""},
+                           {"README.md", "cotan-"},
+                           {"bindings/js/README.md", "cotan-"},
+                           {"bindings/js/types/tangents.d.ts", "version of the library, \""},
+                           {"src/c/include/cotan.h", "/\\* \""}}) {
         const std::string text = readWhole(std::filesystem::path(COTAN_SOURCE_DIR) / copy.file);
         const std::regex pattern(copy.pattern + number);
         auto found = std::sregex_iterator(text.begin(), text.end(), pattern);

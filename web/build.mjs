@@ -1,5 +1,6 @@
 // Builds the page into a folder: node web/build.mjs FOLDER NODE_MODULES COTAN_PACKAGE
 // NODE_MODULES: has the packages that package.json names. COTAN_PACKAGE: the folder of the npm package `cotan`.
+import { createHash } from 'node:crypto';
 import { cpSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, relative, resolve } from 'node:path';
@@ -18,18 +19,36 @@ rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
 const named = mkdtempSync(join(tmpdir(), 'cotan-page-')); // lets esbuild find the package by its name
 symlinkSync(cotan, join(named, 'cotan'));
-await build({
-  entryPoints: ['main.js', 'worker.js'].map(name => join(here, name)), outdir: out, bundle: true, splitting: true, format: 'esm', minify: true, target: 'es2022',
-  chunkNames: 'parts/[name]-[hash]', nodePaths: [modules, named], external: ['fs', 'path', 'node:fs', 'node:path'], logLevel: 'warning',
-});
-rmSync(named, { recursive: true });
-for (const name of ['index.html', 'style.css']) cpSync(join(here, name), join(out, name));
+const common = { bundle: true, minify: true, target: 'es2022', nodePaths: [modules, named], external: ['fs', 'path', 'node:fs', 'node:path'], logLevel: 'warning' };
+await build({ ...common, entryPoints: ['main.js', 'worker.js'].map(name => join(here, name)), outdir: out, splitting: true, format: 'esm', chunkNames: 'parts/[name]-[hash]' });
+for (const name of ['index.html', 'start.js', 'style.css']) cpSync(join(here, name), join(out, name));
 cpSync(join(cotan, 'wasm/cotan.wasm'), join(out, 'cotan.wasm')); // beside worker.js, into which the package is bundled
 cpSync(join(modules, 'draco3dgltf/draco_decoder_gltf.wasm'), join(out, 'draco/gltf.wasm'));
 const libs = join(modules, 'three/examples/jsm/libs');
 for (const name of ['draco_decoder.js', 'draco_decoder.wasm', 'draco_wasm_wrapper.js']) cpSync(join(libs, 'draco/gltf', name), join(out, 'draco', name));
 cpSync(join(libs, 'basis/basis_transcoder.wasm'), join(out, 'basis/basis_transcoder.wasm'));
 writeFileSync(join(out, 'basis/basis_transcoder.js'), withoutEval(readFileSync(join(libs, 'basis/basis_transcoder.js'), 'utf8')));
+
+// The page in one script, for a browser that opens it from disk: worker, WebAssembly and decoders are inside of it.
+const bytesOf = (...names) => Object.fromEntries(names.map(name => [name, readFileSync(join(out, name))]));
+const worker = await bundled('worker.js', bytesOf('draco/gltf.wasm'), { alias: { 'cotan/beside': join(cotan, 'cotan.js') } });
+const decoders = ['draco/draco_decoder.js', 'draco/draco_decoder.wasm', 'draco/draco_wasm_wrapper.js', 'basis/basis_transcoder.js', 'basis/basis_transcoder.wasm'];
+writeFileSync(join(out, 'disk.js'), await bundled('main.js', { 'worker.js': worker, ...bytesOf(...decoders) }));
+rmSync(named, { recursive: true });
+
+// Returns one classic script as bytes. files: bytes by name, which page_files_inside.js gives to it.
+async function bundled(entry, files, more = {}) {
+  const inside = { name: 'files-inside', setup({ onResolve, onLoad }) {
+    onResolve({ filter: /^\.\/page_files\.js$/ }, () => ({ path: join(here, 'page_files_inside.js') }));
+    onResolve({ filter: /^files-inside(:.*)?$/ }, ({ path }) => ({ path, namespace: 'inside' }));
+    onLoad({ filter: /:/, namespace: 'inside' }, ({ path }) => ({ contents: files[path.slice(path.indexOf(':') + 1)], loader: 'binary' }));
+    onLoad({ filter: /^files-inside$/, namespace: 'inside' }, () => ({ contents: `
+${Object.keys(files).map((name, k) => `import file${k} from 'files-inside:${name}';`).join('\n')}
+export const files = { ${Object.keys(files).map((name, k) => `'${name}': file${k}`).join(', ')} };`, loader: 'js' }));
+  } };
+  const { outputFiles: [{ contents }] } = await build({ ...common, ...more, entryPoints: [join(here, entry)], define: { 'import.meta.url': 'location.href' }, format: 'iife', write: false, plugins: [inside] });
+  return contents;
+}
 
 // Documents of the repository that become pages, with their images. Links between them are kept; links to other files
 // become plain text.
@@ -82,6 +101,9 @@ function anchor(words, known) {
   return before === 0 ? name : `${name}-${before}`;
 }
 
-// Lists all files for the cache, so that the page works without a network.
+// Lists the files that a server's visitor needs for the cache, so that the page works without a network. Other contents
+// have another version.
 const files = (folder) => readdirSync(folder).flatMap(name => statSync(join(folder, name)).isDirectory() ? files(join(folder, name)) : [relative(out, join(folder, name))]);
-writeFileSync(join(out, 'offline.js'), readFileSync(join(here, 'offline.js'), 'utf8').replace('[/* files */]', JSON.stringify(['./', ...files(out)])).replace('/* version */', String(Date.now())));
+const cached = files(out).filter(name => name !== 'disk.js').sort(), version = createHash('sha256');
+for (const name of cached) version.update(readFileSync(join(out, name)));
+writeFileSync(join(out, 'offline.js'), readFileSync(join(here, 'offline.js'), 'utf8').replace('[/* files */]', JSON.stringify(['./', ...cached])).replace('/* version */', version.digest('hex').slice(0, 16)));

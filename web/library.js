@@ -1,5 +1,7 @@
 // The library in a worker, so that it never blocks the page: await library.lint(...). Errors keep their message and code.
 // After a failure that is no message for the user the next call gets a new worker.
+import { startWorker } from './page_files.js';
+
 const kCalls = ['decodeImage', 'encodePng', 'detect', 'info', 'convertMap', 'tangents', 'shader', 'lint', 'overLimits', 'convert', 'unzip'];
 export const library = Object.fromEntries(kCalls.map(name => [name, (...values) => ask(name, values)]));
 
@@ -16,7 +18,7 @@ function ask(name, values) {
 }
 
 function start() {
-  const worker = new Worker(new URL('worker.js', document.baseURI), { type: 'module' }), waiting = new Map(), started = { worker, waiting };
+  const worker = startWorker(), waiting = new Map(), started = { worker, waiting };
   const leave = () => { if (current === started) current = undefined; };
   worker.onmessage = ({ data: { call, result, error } }) => {
     const { done, failed } = waiting.get(call);

@@ -87,4 +87,4 @@ const whenSeen = new IntersectionObserver(entries => {
 whenSeen.observe(panel);
 if (location.hash.startsWith('#shader')) document.getElementById('shader').scrollIntoView();
 addEventListener('hashchange', () => { if (location.hash.startsWith('#shader?')) showShader(panel); });
-if (isSecureContext && 'serviceWorker' in navigator) navigator.serviceWorker.register('offline.js');
+if (isSecureContext && location.protocol !== 'file:' && 'serviceWorker' in navigator) navigator.serviceWorker.register('offline.js');

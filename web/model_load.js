@@ -5,8 +5,10 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { besideModel } from './files.js';
+import { fileAddress } from './page_files.js';
 
 const kPatience = 120000; // milliseconds
+const kOfPage = 'cotan-page:'; // begins the addresses of the page's own files for three's decoders
 
 // Rejects after kPatience or on a violation of the security policy, since three hides failures of its workers.
 async function answered(loading) {
@@ -29,16 +31,16 @@ let formats; // a renderer that detects the supported texture formats
 export async function loadModel(files) {
   const manager = new three.LoadingManager(), addresses = [], missing = [];
   manager.setURLModifier(url => {
-    if (/^(data|blob):/.test(url) || url.includes('/draco/') || url.includes('/basis/')) return url;
+    if (/^(data|blob):/.test(url)) return url;
+    if (url.startsWith(kOfPage)) return fileAddress(url.slice(kOfPage.length));
     const bytes = besideModel(files, url);
     if (!bytes) { missing.push(url); return 'data:,'; }
     addresses.push(URL.createObjectURL(new Blob([bytes])));
     return addresses.at(-1);
   });
-  const here = name => new URL(name, document.baseURI).href;
-  const draco = new DRACOLoader(manager).setDecoderPath(here('draco/'));
+  const draco = new DRACOLoader(manager).setDecoderPath(`${kOfPage}draco/`);
   formats ??= new three.WebGLRenderer({ canvas: new OffscreenCanvas(1, 1) });
-  const ktx2 = new KTX2Loader(manager).setTranscoderPath(here('basis/')).detectSupport(formats);
+  const ktx2 = new KTX2Loader(manager).setTranscoderPath(`${kOfPage}basis/`).detectSupport(formats);
   const loader = new GLTFLoader(manager).setDRACOLoader(draco).setKTX2Loader(ktx2).setMeshoptDecoder(MeshoptDecoder);
   try {
     const { bytes } = files.model;

@@ -3,11 +3,12 @@ import { WebIO } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { MeshoptDecoder } from 'meshoptimizer';
 import createDecoder from 'draco3dgltf/draco_decoder_gltf_nodejs.js';
+import { fileAddress } from './page_files.js';
 
 // Returns the bytes of a GLB. json, beside: the JSON and the referenced files of a .gltf; json is null for a GLB.
 export async function unpack({ name, bytes }, json, beside) {
   await MeshoptDecoder.ready;
-  const decoder = await createDecoder({ locateFile: () => new URL('draco/gltf.wasm', self.location.href).href });
+  const decoder = await createDecoder({ locateFile: () => fileAddress('draco/gltf.wasm') });
   const io = new WebIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({ 'draco3d.decoder': decoder, 'meshopt.decoder': MeshoptDecoder });
   try {
     const document = await (json ? io.readJSON({ json, resources: beside }) : io.readBinary(bytes));

@@ -1,6 +1,8 @@
 """Builds the wheel. With libcotan inside, it is tagged for one platform and any Python 3, since nothing is compiled
-against Python. Without the library, the wheel is for all platforms."""
+against Python. Without the library, the wheel is for all platforms. COTAN_PLATFORM in the environment: the platform's
+tag, such as manylinux_2_36_x86_64; default: this system's."""
 
+import os
 import pathlib
 
 import setuptools
@@ -18,8 +20,7 @@ class Distribution(setuptools.Distribution):
 
 class Wheel(bdist_wheel):
     def get_tag(self):
-        windows = any(file.name == "cotan.dll" for file in CARRIED)
-        platform = "win_amd64" if windows else super().get_tag()[2]
+        platform = os.environ.get("COTAN_PLATFORM") or super().get_tag()[2]
         return ("py3", "none", platform if CARRIED else "any")
 
 

@@ -2,9 +2,11 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
+import zipfile
 
 import pytest
 
@@ -44,12 +46,32 @@ print(cotan.read_image("a.exr").dtype)
 """
 
 
+# What every Linux has whose glibc is as new as the wheel's name says.
+SYSTEM = re.compile(r"(ld-linux-x86-64|lib(c|m|dl|rt|pthread|stdc\+\+|gcc_s))\.so")
+
+
+def needs_only_itself(wheel, folder):
+    """Every library in the wheel needs libraries of the wheel and the system's alone, and no newer glibc than it says."""
+    with zipfile.ZipFile(wheel) as packed:
+        packed.extractall(folder)
+    libraries = {path.name: path for path in (folder / "cotan").glob("lib*.so*")}
+    assert len(libraries) > 1 and (folder / "cotan/licences/cotan.txt").exists()
+    said = tuple(map(int, re.search(r"manylinux_(\d+)_(\d+)_", wheel.name).groups()))
+    for name, path in libraries.items():
+        listed = subprocess.run(["objdump", "-p", path], check=True, capture_output=True, text=True).stdout
+        foreign = [one for one in re.findall(r"NEEDED +(\S+)", listed) if one not in libraries and not SYSTEM.match(one)]
+        assert not foreign, f"{name} needs {foreign}"
+        assert re.findall(r"RUNPATH +(\S+)", listed) == ["$ORIGIN"], name
+        assert max((int(a), int(b)) for a, b in re.findall(r"GLIBC_(\d+)\.(\d+)", listed)) <= said, name
+
+
 def test_wheel_with_the_library_works_after_installation(source, tmp_path):
     needs("setuptools", "wheel", "pip")
     build = pathlib.Path(LIBRARY).resolve().parents[2]
     made = subprocess.run([source / "scripts/python-wheel", tmp_path, build], check=True, capture_output=True, text=True)
     wheel = pathlib.Path(made.stdout.strip())
-    assert wheel.name.startswith(f"cotan-{cotan.__version__}-py3-none-linux_")
+    assert wheel.name.startswith(f"cotan-{cotan.__version__}-py3-none-manylinux_2_")
+    needs_only_itself(wheel, tmp_path / "unpacked")
     python = installed(tmp_path / "environment", wheel)
     variables = without("COTAN_LIBRARY", "PYTHONPATH")
     done = subprocess.run([python, "-c", SQUARE], env=variables, cwd=tmp_path, capture_output=True, text=True)

@@ -64,14 +64,15 @@ export async function domed(name, up, colour) {
   return join(scratch, name);
 }
 
-export async function open(options = {}, hash = '') {
+// at: the folder of the page, as an address.
+export async function open(options = {}, hash = '', at = address) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, serviceWorkers: 'block', ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(30000);
   page.on('console', message => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver|blocked by Playwright/.test(message.text())) errors.push(message.text()); });
   page.on('pageerror', error => errors.push(error.message));
-  page.on('request', request => { if (!/^(blob:|data:)/.test(request.url()) && !request.url().startsWith(address)) errors.push(`asked for ${request.url()}`); });
-  await page.goto(address + hash);
+  page.on('request', request => { if (!/^(blob:|data:)/.test(request.url()) && !request.url().startsWith(at)) errors.push(`asked for ${request.url()}`); });
+  await page.goto(at + hash);
   return page;
 }
 
