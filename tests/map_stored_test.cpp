@@ -234,11 +234,12 @@ TEST(MapStored, unsupportedTextureFormatsAreReported)
     EXPECT_EQ(said("none", "8", "gltf,signed", "a.dds"), "options.to: signed values need a .exr or .tif of floats");
     EXPECT_EQ(said("none", "8", "gltf,signed", "a.exr"), "rgba8");
     // Blocks store values from 0 to 1 around a half, whatever a shader treats as zero.
-    for (const auto& [code, channels, expansion] : {std::tuple(TexelCode::rgba8, Channels::xyz, Expansion::exact),
-                                                    {TexelCode::bc5, Channels::orthographic, Expansion::biased},
-                                                    {TexelCode::eacRg11, Channels::orthographic, Expansion::biased},
-                                                    {{6, 6}, Channels::xyz, Expansion::biased},
-                                                    {TexelCode::bc7, Channels::xyz, Expansion::biased}}) {
+    for (const auto& [code, channels, expansion] :
+         {std::tuple(TexelCode(TexelCode::rgba8), Channels::xyz, Expansion::exact),
+          {TexelCode::bc5, Channels::orthographic, Expansion::biased},
+          {TexelCode::eacRg11, Channels::orthographic, Expansion::biased},
+          {{6, 6}, Channels::xyz, Expansion::biased},
+          {TexelCode::bc7, Channels::xyz, Expansion::biased}}) {
         const Convention taken = codeConvention(code, as("directx,exact"));
         EXPECT_EQ(taken.channels, channels);
         EXPECT_EQ(taken.expansion, expansion);

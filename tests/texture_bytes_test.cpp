@@ -40,11 +40,19 @@ struct Format {
     std::vector<std::uint32_t> channels;
 };
 
-// VkFormat, DXGI_FORMAT, bytes of a pixel or block, KHR_DF_MODEL, KHR_DF_CHANNEL.
-const std::vector<Format> kFormats = {{TexelCode::rgba8, 37, 28, 4, 1, {0, 1, 2, 15}},
-                                      {TexelCode::bc5, 141, 83, 16, 132, {0, 1}},
-                                      {TexelCode::bc7, 145, 98, 16, 134, {0}},
-                                      {TexelCode::bc4, 139, 80, 8, 131, {0}}};
+TexelCode twoOf(TexelCode code)
+{
+    code.two = true;
+    return code;
+}
+
+// VkFormat, DXGI_FORMAT (0: not in DDS), bytes of a pixel or block, KHR_DF_MODEL, KHR_DF_CHANNEL.
+const std::vector<Format> kFormats = {
+    {TexelCode::rgba8, 37, 28, 4, 1, {0, 1, 2, 15}}, {TexelCode::bc5, 141, 83, 16, 132, {0, 1}},
+    {TexelCode::bc7, 145, 98, 16, 134, {0}},         {TexelCode::bc4, 139, 80, 8, 131, {0}},
+    {TexelCode::eacRg11, 155, 0, 16, 161, {0, 1}},   {TexelCode::eacR11, 153, 0, 8, 161, {0}},
+    {TexelCode(4, 4), 157, 0, 16, 162, {0}},         {TexelCode(6, 5), 163, 0, 16, 162, {0}},
+    {twoOf(TexelCode(8, 8)), 171, 0, 16, 162, {0}}};
 
 // Levels of 6 x 5, 3 x 2 and 1 x 1 texels in which no two adjacent bytes are equal.
 std::vector<TextureLevel> levelsOf(const Format& format)
@@ -52,7 +60,9 @@ std::vector<TextureLevel> levelsOf(const Format& format)
     std::vector<TextureLevel> levels{{6, 5, {}}, {3, 2, {}}, {1, 1, {}}};
     for (TextureLevel& level : levels) {
         const bool blocks = format.code != TexelCode::rgba8;
-        const int units = blocks ? (level.width + 3) / 4 * ((level.height + 3) / 4) : level.width * level.height;
+        const int across = format.code.width, down = format.code.height;
+        const int units = blocks ? (level.width + across - 1) / across * ((level.height + down - 1) / down)
+                                 : level.width * level.height;
         for (std::size_t i = 0; i < std::size_t(units) * format.bytes; ++i)
             level.texels.push_back(std::byte((i * 7 + std::size_t(level.width)) & 0xff));
     }
@@ -92,7 +102,8 @@ TEST(TextureBytes, ktx2FollowsItsSpecification)
             EXPECT_EQ(file.word(at + 4), 0u);
             EXPECT_EQ(file.word(at + 8), 2u | (described - 4) << 16);
             EXPECT_EQ(file.word(at + 12), format.model | 1u << 8 | 1u << 16); // BT.709, linear, no flags
-            EXPECT_EQ(file.word(at + 16), blocks ? 0x0303u : 0u);
+            const auto block = std::uint64_t(format.code.width - 1 + 256 * (format.code.height - 1));
+            EXPECT_EQ(file.word(at + 16), blocks ? block : 0u);
             EXPECT_EQ(file.number(at + 20, 8), format.bytes);
             const std::size_t bits = format.bytes * 8 / channels;
             for (std::size_t c = 0; c < channels; ++c) {
@@ -113,6 +124,8 @@ TEST(TextureBytes, ktx2FollowsItsSpecification)
             EXPECT_EQ(at, keysAt + keysSize);
             std::vector<std::string> expected = {std::string("KTXorientation\0rd", 17) + '\0',
                                                  std::string("KTXwriter\0cotan", 15) + '\0'};
+            if (format.code.two)
+                expected.insert(expected.begin() + 1, std::string("KTXswizzle\0ra01", 15) + '\0');
             if (!frame.empty())
                 expected.push_back(std::string("cotanFrame\0smooth", 17) + '\0');
             EXPECT_EQ(keys, expected);
@@ -136,6 +149,8 @@ TEST(TextureBytes, ddsIsAHeaderAndTheLevelsFromTheLargest)
 {
     const TemporaryFolder folder;
     for (const Format& format : kFormats) {
+        if (format.dxgi == 0)
+            continue;
         const auto levels = levelsOf(format);
         ASSERT_TRUE(writeTextureFile(folder / "a.DDS", format.code, levels, "smooth"));
         const BytesOfFile file(readWhole(folder / "a.DDS"));
@@ -179,7 +194,7 @@ TEST(TextureBytes, blocksHaveTheCodesOfTheirExpansion)
                                                 {Expansion::exact16, 255 * 32768 / 65535.0, 255 * 32767 / 65535.0}}) {
         Convention to;
         to.expansion = expansion;
-        const TextureLevel level = levelOf(image, TexelCode::bc5, to);
+        const TextureLevel level = *levelOf(image, TexelCode::bc5, to);
         EXPECT_EQ(level.width, 5);
         EXPECT_EQ(level.height, 9);
         ASSERT_EQ(level.texels.size(), 2u * 3 * 16);
@@ -187,10 +202,13 @@ TEST(TextureBytes, blocksHaveTheCodesOfTheirExpansion)
             EXPECT_NEAR(decoded(level.texels.data() + 80, texel), zero + unit * x, 0.5 / 7 + 1e-3);
             EXPECT_NEAR(decoded(level.texels.data() + 88, texel), zero + unit * y, 0.5 / 7 + 1e-3);
         }
-        EXPECT_EQ(levelOf(image, TexelCode::bc7, to).texels.size(), 2u * 3 * 16);
+        EXPECT_EQ(levelOf(image, TexelCode::bc7, to)->texels.size(), 2u * 3 * 16);
+        EXPECT_EQ(levelOf(image, TexelCode::eacRg11, to)->texels.size(), 2u * 3 * 16);
+        EXPECT_EQ(levelOf(image, TexelCode(4, 4), to)->texels.size(), 2u * 3 * 16);
+        EXPECT_EQ(levelOf(image, TexelCode(5, 5), to)->texels.size(), 2u * 16);
     }
-    EXPECT_EQ(levelOf(image, TexelCode::rgba8, {}).texels, image.data);
-    const TextureLevel one = bc4Level(image);
+    EXPECT_EQ(levelOf(image, TexelCode::rgba8, {})->texels, image.data);
+    const TextureLevel one = greyLevel(image, TexelCode::bc4);
     EXPECT_EQ(one.width, 5);
     EXPECT_EQ(one.height, 9);
     ASSERT_EQ(one.texels.size(), 2u * 3 * 8);
