@@ -39,7 +39,7 @@ cotan_optional(PNG PNG::PNG libpng libpng-dev "no PNG files, no tool" PNG)
 cotan_optional(JPEG JPEG::JPEG libjpeg libjpeg-dev "no JPEG files, no tool" JPEG)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 cotan_optional(WEBP WebP::webp libwebp libwebp-dev "no WebP files, and no glTF with such images" WebP)
-if(WIN32 AND PROJECT_IS_TOP_LEVEL) # where the library of scripts/windows-libraries is a static one
+if((WIN32 OR EMSCRIPTEN) AND PROJECT_IS_TOP_LEVEL) # where our scripts build a static library
   find_package(zstd CONFIG QUIET)
   if(TARGET zstd::libzstd_static AND NOT TARGET zstd::libzstd_shared)
     add_library(zstd::libzstd_shared ALIAS zstd::libzstd_static)

@@ -23,6 +23,10 @@ Status ReaderProcess::await() { return failure(); }
 void ReaderProcess::restartClock() {}
 Error ReaderProcess::failure() { return unavailableError("this platform has no processes"); }
 
+std::optional<ParentConnection> ParentConnection::take() { return std::nullopt; }
+std::size_t ParentConnection::receive(std::span<std::byte>) const { return 0; }
+bool ParentConnection::send(std::span<const std::byte>) const { return false; }
+
 void dieWith(std::int64_t, int) {}
 void confine() {}
 void limitTo(const ReaderBudget&, const ReaderBudget&) {}
