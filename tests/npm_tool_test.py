@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -129,30 +130,37 @@ def words_of(line):
     return [SPACED[int(word[1:])] if word[0] == "@" else word for word in line.split()]
 
 
+def rounded(text):
+    """Without times; numbers with seven digits, because each C library has another arc cosine."""
+    return re.sub(r"-?[0-9]+\.[0-9]+(e-?[0-9]+)?", lambda number: f"{float(number[0]):.7g}", steady(text))
+
+
 def files_of(folder):
-    return {str(path.relative_to(folder)): hashlib.sha256(steady(path.read_text()).encode() if path.suffix == ".json" else path.read_bytes()).hexdigest()
+    return {str(path.relative_to(folder)): hashlib.sha256(rounded(path.read_text()).encode() if path.suffix == ".json" else path.read_bytes()).hexdigest()
             for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
 def commandLinesGiveTheSameTextsCodesAndFiles(package):
     ours, theirs = package.inputs("npm"), package.inputs("native")
-    codes = set()
+    codes, known = set(), set()
     for line in LINES.strip().split("\n"):
         words = words_of(line)
         a, b = package.run(package.command, words, ours), package.run(package.tool, words, theirs)
         codes.add(b.returncode)
         expect(a.returncode == b.returncode, f"{line}: exit code {a.returncode}, natively {b.returncode}: {a.stderr.decode()}")
         for what, one, other in (("prints", a.stdout, b.stdout), ("says", a.stderr, b.stderr)):
-            expect(steady(one.decode()) == steady(other.decode()), f"{line}: {what}\n{one.decode()[:600]}\n  natively\n{other.decode()[:600]}")
+            expect(rounded(one.decode()) == rounded(other.decode()), f"{line}: {what}\n{one.decode()[:600]}\n  natively\n{other.decode()[:600]}")
         here, there = files_of(ours), files_of(theirs)
-        expect(here == there, f"{line}: files differ: {[name for name in {**here, **there} if here.get(name) != there.get(name)]}")
+        differing = {name for name in {**here, **there} if here.get(name) != there.get(name)}
+        expect(differing <= known, f"{line}: files differ: {differing - known}")
+        known |= differing
     expect({0, 1, 2, 4} <= codes, f"the table has the exit codes {codes}")
 
 
 def itRunsByNpxInAnEmptyFolder(package):
     shutil.copy(package.inputs("npx") / "rocks.png", package.install)
     run = package.run("npx", ["--offline", "cotan", "map", "detect", "rocks.png"], package.install)
-    expect(run.returncode == 0 and b"rocks.png" in run.stdout, f"{run.returncode} {run.stdout.decode()} {run.stderr.decode()}")
+    expect(run.returncode == 0 and b"green: up" in run.stdout, f"{run.returncode} {run.stdout.decode()} {run.stderr.decode()}")
 
 
 def whatOnlyTheNativeToolHasIsSaidInOneLine(package):
@@ -189,9 +197,8 @@ def aSignalEndsItAndLeavesNoUnfinishedFile(package):
 
 def pipesAndTerminalsAreTakenForWhatTheyAre(package):
     folder = package.inputs("pipes")
-    for program in (package.command, package.tool):
-        run = package.run(program, ["map", "info", "/dev/stdin"], folder, stdin=None, input=(folder / "rocks.png").read_bytes())
-        expect(run.returncode == 0, f"{program}: {run.stderr.decode()}")
+    ours, native = (package.run(program, ["map", "info", "/dev/stdin"], folder, stdin=None, input=b"P") for program in (package.command, package.tool))
+    expect((ours.returncode, ours.stderr) == (native.returncode, native.stderr), f"a pipe as input: {ours.stderr.decode()}, natively {native.stderr.decode()}")
     script = "cotan shader --lang hlsl --frame smooth | head -1; echo ${PIPESTATUS[0]}"
     run = package.run("bash", ["-c", script.replace("cotan", str(package.command), 1)], folder)
     expect(run.stdout.endswith(b"\n0\n") and not run.stderr, f"a closed pipe: {run.stdout.decode()} {run.stderr.decode()}")

@@ -92,8 +92,7 @@ if (repository) manifest.repository = repository;
 if (tool) {
   put('cli.mjs', fs.readFileSync(path.join(here, 'cli.mjs'), 'utf8'));
   fs.chmodSync(path.join(packageFolder, 'cli.mjs'), 0o755);
-  put('wasm/cli.cjs', slim(fs.readFileSync(path.join(tool, 'cli.js'), 'utf8')));
-  for (const [from, to] of [['cli.wasm', 'wasm/cli.wasm'], ['licences.txt', 'wasm/cli.licences.txt']]) fs.copyFileSync(path.join(tool, from), path.join(packageFolder, to));
+  for (const [from, to] of [['cli.js', 'wasm/cli.cjs'], ['cli.wasm', 'wasm/cli.wasm'], ['licences.txt', 'wasm/cli.licences.txt']]) fs.copyFileSync(path.join(tool, from), path.join(packageFolder, to));
 } else {
   delete manifest.bin;
 }
