@@ -59,7 +59,8 @@ requires std::is_floating_point_v<Real> std::from_chars_result from_chars(const 
     const std::string text(first, at);
     const Real number = std::is_same_v<Real, float> ? Real(std::strtof(text.c_str(), nullptr))
                                                     : Real(std::strtod(text.c_str(), nullptr));
-    const bool tooSmall = number == 0 && text.substr(0, text.find_first_of("eE")).find_first_of("123456789") < text.size();
+    const bool tooSmall =
+        number == 0 && text.substr(0, text.find_first_of("eE")).find_first_of("123456789") < text.size();
     if (finite && (std::isinf(number) || tooSmall))
         return {at, std::errc::result_out_of_range};
     value = number;
@@ -86,8 +87,8 @@ requires std::is_floating_point_v<Real> std::to_chars_result to_chars(char* firs
     char scientific[64] = "", fixed[512] = "";
     for (int digits = 0; digits < 17; ++digits) {
         std::snprintf(scientific, sizeof scientific, "%.*e", digits, double(value));
-        const double back = std::is_same_v<Real, float> ? double(std::strtof(scientific, nullptr))
-                                                        : std::strtod(scientific, nullptr);
+        const double back =
+            std::is_same_v<Real, float> ? double(std::strtof(scientific, nullptr)) : std::strtod(scientific, nullptr);
         if (back != double(value))
             continue;
         const char* const exponent = std::strchr(scientific, 'e');

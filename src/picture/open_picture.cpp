@@ -274,8 +274,7 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
         return fits.error();
     Picture picture;
     // Slow work that runs while the model is read.
-    picture.device =
-        std::async(kBeside, [name = options.device, threads] { return openRenderer(name, threads); });
+    picture.device = std::async(kBeside, [name = options.device, threads] { return openRenderer(name, threads); });
     auto environment = std::async(kBeside, openEnvironmentMap, options);
     COTAN_TRY(model, options.animation.empty() ? still(openModel(options)) : openMovingModel(options));
     picture.scene = std::move(model->scene);
@@ -344,8 +343,7 @@ Status movePicture(const PictureOptions& options, double to, Picture& picture, R
         picture.table->turn(picture.scene, to);
     else if (Status posed = pose(options, to, picture); !posed)
         return posed;
-    auto ground =
-        std::async(kBeside, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
+    auto ground = std::async(kBeside, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
     Status loaded = renderer.load(picture.scene, /*sameImages=*/true);
     picture.view.ground = ground.get();
     if (picture.table && options.edges != Edges::none)
@@ -355,8 +353,7 @@ Status movePicture(const PictureOptions& options, double to, Picture& picture, R
 
 Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& options, Picture& picture)
 {
-    auto ground =
-        std::async(kBeside, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
+    auto ground = std::async(kBeside, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
     auto renderer = picture.device.get();
     if (!renderer)
         return renderer;

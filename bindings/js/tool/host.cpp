@@ -15,7 +15,7 @@ EM_JS(int, cotanHostIsRunning, (int number), {
         process.kill(number, 0);
         return 1;
     } catch (error) {
-        return error.code === "ESRCH" ? 0 : 1;
+        return error.code == = "ESRCH" ? 0 : 1;
     }
 });
 EM_JS(double, cotanHostMemory, (), { return process.resourceUsage().maxRSS; });
