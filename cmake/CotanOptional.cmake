@@ -40,7 +40,7 @@ cotan_optional(JPEG JPEG::JPEG libjpeg libjpeg-dev "no JPEG files, no tool" JPEG
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 cotan_optional(WEBP WebP::webp libwebp libwebp-dev "no WebP files, and no glTF with such images" WebP)
 cotan_optional(ASTC Astcenc::astcenc libastcenc libastcenc-dev "no blocks of ASTC in KTX2" Astcenc)
-if(WIN32 AND PROJECT_IS_TOP_LEVEL) # where the library of scripts/windows-libraries is a static one
+if((WIN32 OR EMSCRIPTEN) AND PROJECT_IS_TOP_LEVEL) # where our scripts build a static library
   find_package(zstd CONFIG QUIET)
   if(TARGET zstd::libzstd_static AND NOT TARGET zstd::libzstd_shared)
     add_library(zstd::libzstd_shared ALIAS zstd::libzstd_static)

@@ -59,10 +59,10 @@ function(cotan_library target)
   endif()
 endfunction()
 
-# WebAssembly is compiled for size, except the given sources, which are time-critical. Set per source, because the
+# WebAssembly for pages is compiled for size, except the given sources, which are time-critical. Set per source, because the
 # compiler's driver accepts only one such option.
 function(cotan_fast_sources target)
-  if(EMSCRIPTEN)
+  if(COTAN_FOR_PAGES)
     get_target_property(sources ${target} SOURCES)
     foreach(source ${sources})
       set(level -Oz)
@@ -145,7 +145,7 @@ function(cotan_part name)
       target_link_libraries(cotan_${name} PRIVATE $<BUILD_INTERFACE:${target}>)
     endforeach()
     cotan_library(cotan_${name})
-    if(EMSCRIPTEN)
+    if(COTAN_FOR_PAGES)
       target_compile_options(cotan_${name} PRIVATE -Oz)
     endif()
     cotan_unity(cotan_${name} 24)

@@ -3,6 +3,11 @@ set(COTAN_SYSTEM posix)
 if(WIN32)
   set(COTAN_SYSTEM windows)
 endif()
+# For pages: small modules without files. The preset `web-tool` builds the tool instead, for Node.js.
+set(COTAN_FOR_PAGES OFF)
+if(EMSCRIPTEN AND NOT COTAN_WEB_SYSTEM)
+  set(COTAN_FOR_PAGES ON)
+endif()
 # Programs for Windows: a manifest, and the version that Explorer shows. Does nothing on other systems.
 function(cotan_windows_program target)
   if(NOT WIN32)

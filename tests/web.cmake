@@ -28,6 +28,15 @@ foreach(name arguments gltf_transform three three_choice types bundlers browser 
   cotan_web_test(${name} ARGUMENTS ${tarball} ${modules} FIXTURES web npm)
 endforeach()
 
+# The command of the package, which `scripts/npm-package build/npm build/web-libraries` makes; compared with the tool.
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  add_test(NAME Web.tool COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/npm_tool_test.py
+    ${PROJECT_SOURCE_DIR}/build/npm/npm/cotan-${PROJECT_VERSION}.tgz $<TARGET_FILE:cotan>)
+  set_tests_properties(Web.tool PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
+  cotan_slow(Web.tool)
+endif()
+
 # Compares cotan/three with its defaults, from its sources, with stock three.js.
 cotan_web_test(three_defaults ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} FIXTURES npm)
 

@@ -82,7 +82,8 @@ void showOpened(std::vector<std::string>& words)
 int runCommandLine(std::vector<std::string> words)
 {
     using namespace cotan::app;
-    cotan::app::Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
+    cotan::app::Arguments tool("cotan", "Normal mapping without precomputed tangents." COTAN_LEFT_OUT,
+                               "cotan " COTAN_VERSION COTAN_LEFT_OUT);
     addExamples(tool, {"cotan render model.glb -o picture.png", "cotan help render"});
     addCommands(tool);
     if (words.size() == 2 && words[0] == "--help-files")

@@ -126,7 +126,7 @@ Result<Inspected> detect(const InspectOptions& o, const std::string& file)
         return found.error();
     const auto lines = linesOf(*found, file);
     // Briefly: the verdict and the faults.
-    const auto rest = std::ranges::find_if(lines.begin() + 1, lines.end(), [](const std::string& line) {
+    const auto rest = std::find_if(lines.begin() + 1, lines.end(), [](const std::string& line) {
         return !line.starts_with("wrong: ") && !line.starts_with("to fix it: ");
     });
     return Inspected{lines, toJson(*found), std::size_t(rest - lines.begin())};

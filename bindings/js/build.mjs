@@ -1,12 +1,14 @@
-// Assembles and packs the npm package: node build.mjs WASM_FOLDER OUT_FOLDER VERSION. Writes package/, the contents of
-// the tarball, and the tarball cotan-VERSION.tgz to OUT_FOLDER.
+// Assembles and packs the npm package: node build.mjs WASM_FOLDER OUT_FOLDER VERSION [REPOSITORY] [--tool=FOLDER]. Writes
+// package/, the contents of the tarball, and the tarball cotan-VERSION.tgz to OUT_FOLDER. --tool: cli.js, cli.wasm and
+// licences.txt, which scripts/npm-package makes for the command; without them the package has no command.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { deflateRawSync } from 'node:zlib';
 
-const [wasmFolder, out, version, repository] = process.argv.slice(2);
+const tool = process.argv.find((word) => word.startsWith('--tool='))?.slice('--tool='.length);
+const [wasmFolder, out, version, repository] = process.argv.slice(2).filter((word) => !word.startsWith('--tool='));
 if (!version) {
   console.error('usage: node build.mjs WASM_FOLDER OUT_FOLDER VERSION');
   process.exit(1);
@@ -87,6 +89,13 @@ for (const folder of ['three', 'gltf-transform'])
 const manifest = JSON.parse(fs.readFileSync(path.join(here, 'package.json'), 'utf8'));
 manifest.version = version;
 if (repository) manifest.repository = repository;
+if (tool) {
+  put('cli.mjs', fs.readFileSync(path.join(here, 'cli.mjs'), 'utf8'));
+  fs.chmodSync(path.join(packageFolder, 'cli.mjs'), 0o755);
+  for (const [from, to] of [['cli.js', 'wasm/cli.cjs'], ['cli.wasm', 'wasm/cli.wasm'], ['licences.txt', 'wasm/cli.licences.txt']]) fs.copyFileSync(path.join(tool, from), path.join(packageFolder, to));
+} else {
+  delete manifest.bin;
+}
 delete manifest.private;
 for (const [name, target] of Object.entries(manifest.exports))
   if (!fs.existsSync(path.join(packageFolder, typeof target === 'string' ? target : target.default))) delete manifest.exports[name];

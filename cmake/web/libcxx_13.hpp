@@ -2,7 +2,7 @@
 // preset `web` includes this file before every source. With newer libraries it is empty: libc++ 19 has all of these.
 #pragma once
 #include <version>
-#if defined(_LIBCPP_VERSION) && !defined(__cpp_lib_atomic_ref)
+#if defined(_LIBCPP_VERSION) && !defined(__cpp_lib_atomic_ref) && __cplusplus > 201703L
 
 #include <atomic>
 
@@ -27,7 +27,7 @@ private:
 } // namespace std
 
 #endif
-#if defined(_LIBCPP_VERSION) && !defined(__cpp_lib_bit_cast)
+#if defined(_LIBCPP_VERSION) && !defined(__cpp_lib_bit_cast) && __cplusplus > 201703L
 
 #include <algorithm>
 #include <cctype>
@@ -44,6 +44,7 @@ namespace std {
 
 template<class To, class From> constexpr To bit_cast(const From& from) noexcept { return __builtin_bit_cast(To, from); }
 
+#ifndef COTAN_REAL_NUMBERS // real_numbers.hpp is exact, and larger
 // Accepts texts shorter than 64 characters. Unlike the standard's function, strtod also accepts hexadecimal numbers.
 template<class Real>
 requires std::is_floating_point_v<Real> std::from_chars_result from_chars(const char* first, const char* last,
@@ -58,6 +59,7 @@ requires std::is_floating_point_v<Real> std::from_chars_result from_chars(const 
     value = Real(number);
     return {first + (end - text), end == text ? std::errc::invalid_argument : std::errc()};
 }
+#endif
 
 namespace ranges {
 
@@ -143,6 +145,37 @@ template<class Range, class Out, class Function> constexpr auto transform(Range&
 {
     return std::transform(std::begin(range), std::end(range), out,
                           [&](auto&& item) -> decltype(auto) { return std::invoke(function, item); });
+}
+
+template<class Range, class Less = std::less<>, class Projection = std::identity>
+constexpr auto min_element(Range&& range, Less less = {}, Projection projection = {})
+{
+    return std::min_element(std::begin(range), std::end(range), onProjected(less, projection));
+}
+template<class Range, class Less = std::less<>, class Projection = std::identity>
+constexpr void stable_sort(Range&& range, Less less = {}, Projection projection = {})
+{
+    std::stable_sort(std::begin(range), std::end(range), onProjected(less, projection));
+}
+template<class Range, class Value, class Projection = std::identity>
+constexpr auto count(Range&& range, const Value& value, Projection projection = {})
+{
+    return std::count_if(std::begin(range), std::end(range),
+                         [&](auto&& item) { return std::invoke(projection, item) == value; });
+}
+template<class Range, class Out> constexpr void copy(Range&& range, Out out)
+{
+    std::copy(std::begin(range), std::end(range), out);
+}
+template<class Range> constexpr void reverse(Range&& range) { std::reverse(std::begin(range), std::end(range)); }
+template<class Range, class Test, class Value>
+constexpr void replace_if(Range&& range, Test test, const Value& replacement)
+{
+    std::replace_if(std::begin(range), std::end(range), test, replacement);
+}
+template<class Range, class Value> constexpr void fill(Range&& range, const Value& value)
+{
+    std::fill(std::begin(range), std::end(range), value);
 }
 
 } // namespace ranges

@@ -1,11 +1,13 @@
 #include "cotan/picture.hpp"
 
 #include <algorithm>
+#include <future>
 #include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/loops.hpp"
 #include "core/try.hpp"
 #include "cotan/frame_choice.hpp"
 #include "cotan/maps.hpp"
@@ -35,6 +37,8 @@ LoadLimits limitsFor(int memory, Pixels pixels)
 bool PictureSize::fits() const { return width >= 1 && height >= 1 && width <= 16384 && height <= 16384; }
 
 namespace {
+
+constexpr auto kBeside = kHasThreads ? std::launch::async : std::launch::deferred;
 
 constexpr Named<Output> kShows[] = {{"shaded", Output::shaded},   {"normal", Output::normal},
                                     {"tangent", Output::tangent}, {"bitangent", Output::bitangent},
@@ -270,9 +274,8 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
         return fits.error();
     Picture picture;
     // Slow work that runs while the model is read.
-    picture.device =
-        std::async(std::launch::async, [name = options.device, threads] { return openRenderer(name, threads); });
-    auto environment = std::async(std::launch::async, openEnvironmentMap, options);
+    picture.device = std::async(kBeside, [name = options.device, threads] { return openRenderer(name, threads); });
+    auto environment = std::async(kBeside, openEnvironmentMap, options);
     COTAN_TRY(model, options.animation.empty() ? still(openModel(options)) : openMovingModel(options));
     picture.scene = std::move(model->scene);
     picture.animated = std::move(model->animated);
@@ -340,8 +343,7 @@ Status movePicture(const PictureOptions& options, double to, Picture& picture, R
         picture.table->turn(picture.scene, to);
     else if (Status posed = pose(options, to, picture); !posed)
         return posed;
-    auto ground =
-        std::async(std::launch::async, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
+    auto ground = std::async(kBeside, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
     Status loaded = renderer.load(picture.scene, /*sameImages=*/true);
     picture.view.ground = ground.get();
     if (picture.table && options.edges != Edges::none)
@@ -351,8 +353,7 @@ Status movePicture(const PictureOptions& options, double to, Picture& picture, R
 
 Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& options, Picture& picture)
 {
-    auto ground =
-        std::async(std::launch::async, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
+    auto ground = std::async(kBeside, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
     auto renderer = picture.device.get();
     if (!renderer)
         return renderer;

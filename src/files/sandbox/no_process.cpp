@@ -23,6 +23,10 @@ Status ReaderProcess::await() { return failure(); }
 void ReaderProcess::restartClock() {}
 Error ReaderProcess::failure() { return unavailableError("this platform has no processes"); }
 
+std::optional<ParentConnection> ParentConnection::take() { return std::nullopt; }
+std::size_t ParentConnection::receive(std::span<std::byte>) const { return std::size_t(in_ >= 0); } // it never is
+bool ParentConnection::send(std::span<const std::byte>) const { return out_ >= 0; }
+
 void dieWith(std::int64_t, int) {}
 void confine() {}
 void limitTo(const ReaderBudget&, const ReaderBudget&) {}
