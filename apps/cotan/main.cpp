@@ -12,6 +12,10 @@
 #include "program.hpp"
 #include "view_command.hpp"
 
+#ifndef COTAN_LEFT_OUT // a sentence on what this build lacks, for a build that lacks anything
+#define COTAN_LEFT_OUT ""
+#endif
+
 namespace {
 
 using cotan::app::finish;
