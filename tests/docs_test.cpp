@@ -256,7 +256,8 @@ TEST(Documents, theReadmeShowsEarlyHowToFlipGreenAndBake)
     std::size_t number = 0, green = 0, bake = 0;
     for (std::string line; std::getline(text, line);) {
         ++number;
-        if (green == 0 && line.starts_with("cotan map convert") && line.find("--from directx") != std::string::npos)
+        if (green == 0 && line.starts_with("cotan map convert")
+            && line.find("--from auto --to opengl") != std::string::npos)
             green = number;
         if (bake == 0 && line.starts_with("cotan bake"))
             bake = number;

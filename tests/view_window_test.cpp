@@ -150,11 +150,11 @@ TEST(ViewWindow, thePointerOpensMenusAndChoosesEntries)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
-    // The third menu, which fits below the bar, and one of its first entries.
+    // The fourth menu, which fits below the bar, and one of its first entries.
     const ToolRun run =
         play(folder,
-             "0 do scale 1\n0 wait\n0 move 137 10\n0 press left\n0 release left\n0 wait\n0 do window menu.png\n"
-             "0 move 150 80\n0 press left\n0 release left\n0 wait\n0 do report r.txt\n",
+             "0 do scale 1\n0 wait\n0 move 240 10\n0 press left\n0 release left\n0 wait\n0 do window menu.png\n"
+             "0 move 255 80\n0 press left\n0 release left\n0 wait\n0 do report r.txt\n",
              {"--shape", "plane", "--size", "640x600"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(lineOf(readWhole(folder / "r.txt"), "first"), "triangle stored - -");

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -178,9 +178,12 @@ void takeTask(Parts& parts)
     state.result = {parts.task.title, {}};
     constexpr std::string_view kPrefix = "cotan: ", kWarning = "warning: ";
     std::vector<std::string>& lines = state.result.lines;
-    std::istringstream text(end->output);
-    for (std::string line; std::getline(text, line);)
+    for (std::size_t at = 0; at < end->output.size();) {
+        const std::size_t next = std::min(end->output.find('\n', at), end->output.size());
+        const std::string line = end->output.substr(at, next - at);
         lines.push_back(line.starts_with(kPrefix) ? line.substr(kPrefix.size()) : line);
+        at = next + 1;
+    }
     std::ranges::stable_partition(lines, [&](const std::string& line) { return !line.starts_with(kWarning); });
     if (end->code != 0 && end->code != kOverLimit)
         state.result.title += end->code < 0 ? ": ended" : fmt::format(": exit code {}", end->code);

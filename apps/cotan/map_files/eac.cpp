@@ -11,7 +11,7 @@ namespace cotan::app {
 
 namespace {
 
-constexpr float kMostEac = 2047; // codes have 11 bits
+constexpr float kHighestCode = 2047; // codes have 11 bits
 
 // One channel of a block: codes 8 base + 4 + modifier * step, where step is 8 * factor, or 1 for factor 0.
 struct Levels {
@@ -20,7 +20,7 @@ struct Levels {
     float code(std::size_t i) const
     {
         const int step = factor > 0 ? 8 * factor : 1;
-        return std::clamp(float(8 * base + 4 + kEacModifiers[std::size_t(table)][i] * step), 0.0f, kMostEac);
+        return std::clamp(float(8 * base + 4 + kEacModifiers[std::size_t(table)][i] * step), 0.0f, kHighestCode);
     }
 };
 
@@ -155,7 +155,7 @@ void encodePair(NormalTexels& t, std::byte* to)
 std::vector<std::byte> encodeEacRg11(const Image& map, const CodeScale& scale)
 {
     return encodeBlocks(map, 16, [&](int left, int top, std::byte* to) {
-        NormalTexels texels = normalTexels(map, left, top, scale, kMostEac);
+        NormalTexels texels = normalTexels(map, left, top, scale, kHighestCode);
         encodePair(texels, to);
     });
 }
@@ -164,7 +164,7 @@ std::vector<std::byte> encodeEacR11(const Image& image)
 {
     return encodeBlocks(image, 8, [&](int left, int top, std::byte* to) {
         Values values, unused, ones;
-        loadCodes(image, left, top, 0, kMostEac, kMostEac, values, unused);
+        loadCodes(image, left, top, 0, kHighestCode, kHighestCode, values, unused);
         ones.fill(kZero + 1);
         const Levels levels = fitLevels(values, ones);
         std::array<float, 8> codes;

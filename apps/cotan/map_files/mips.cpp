@@ -95,6 +95,15 @@ Result<Bits> bitsOfMips(const TexelCode& code, PixelType input, const std::files
     return isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, input, *o.to, out);
 }
 
+Status checkLengths(const Result<TexelCode>& code, const MipFileOptions& o)
+{
+    if (!code)
+        return code.error();
+    if (code->twoChannels() && o.keepLengths)
+        return about("options.keepLengths", usageError(fmt::format("{} has no channel for lengths", o.compress)));
+    return Done{};
+}
+
 } // namespace
 
 std::filesystem::path firstMipFile(const std::filesystem::path& out)
@@ -106,17 +115,14 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
                              const MipFileOptions& requested, const FileOptions& files)
 {
     MipFileOptions o = requested;
-    if (o.compress != "none" && o.compress != "bc7" && o.keepLengths)
-        return about("options.keepLengths",
-                     usageError(fmt::format("expected blocks with a channel for lengths, bc7; found {}", o.compress)));
     if (o.to) // fails before the work
-        if (const auto code = codeFor(o.compress, o.bits, *o.to, out); !code)
-            return code.error();
+        COTAN_CHECK(checkLengths(codeFor(o.compress, o.bits, *o.to, out), o));
     COTAN_TRY(read, readMap(file, o.from, "options.from", files.limits));
     const Image* const map = &read->image;
     const Convention from = read->convention, to = o.to.value_or(from);
     o.to = to;
     COTAN_TRY(code, codeFor(o.compress, o.bits, to, out));
+    COTAN_CHECK(checkLengths(code, o));
     COTAN_TRY(bits, bitsOfMips(*code, map->type, out, o));
     // 32 bytes of moments for a quarter of the texels, and normals and roughness of all levels.
     const std::size_t work = map->pixelCount() * (8 + 11 * bytesPerComponent(bits->type));
