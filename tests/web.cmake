@@ -47,6 +47,9 @@ cotan_web_test(edges ARGUMENTS ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 cotan_web_test(three_beyond ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 cotan_web_test(three_relief ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} FIXTURES npm)
 
+# The blocks of GPU textures that the tool writes, in stock three.js.
+cotan_web_test(three_blocks ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
+
 # The pages of examples/ as they are shipped.
 cotan_web_test(examples ARGUMENTS ${PROJECT_SOURCE_DIR} ${modules} FIXTURES npm)
 
