@@ -108,8 +108,9 @@ CASES = [
         "--strength": "~1 | 0.5 | -1", "--mask": "mask.png | rough.png", "--tiles": "~1 | 2 | 2x3", "--bits": "~8 | 16", "--dither": "",
         "--threads": "=1 | =3", "--memory": "=800"}),
     ("map mips rocks.png --from gltf --to gltf -o out.dds", {
-        "--from": "opengl | directx | slope", "--to": "directx", "--model": "*", "--roughness": "0.2 | 0.8", "--compress": "*",
+        "--from": "opengl | directx | slope", "--to": "directx", "--model": "*", "--roughness": "0.2 | 0.8",
         "--threads": "=1 | =3", "--memory": "=800"}),
+    ("map mips rocks.png --from gltf --to gltf -o out.ktx2", {"--compress": "*"}),
     ("map mips rocks.png --from gltf -o out.exr", {"--keep-lengths": "", "--bits": "~auto | ~float | !8 | !16 | *"}),
     (BAKE, {
         "--high": "low.obj | low.stl", "--low": "room.gltf", "--size": "16 | 24x20", "--kind": "~normal | !base-color | !roughness | !metallic | !roughness-metallic | !emissive | *", "--frame": "~mikktspace | !cotangent-2013 | !nonperspective | !paper-orthogonal | *",
