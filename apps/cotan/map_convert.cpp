@@ -64,7 +64,9 @@ Status findSource(const MapConvertCommandOptions& o, ConvertFileOptions& options
 
 Status run(const MapConvertCommandOptions& o)
 {
-    COTAN_TRY(stated, parseConvention(o.from == kFound ? "opengl" : o.from, "--from"));
+    const auto stated = parseConvention(o.from == kFound ? "opengl" : o.from, "--from");
+    if (!stated)
+        return usageError(fmt::format("{}; or {} alone", stated.error().message, kFound));
     COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
     COTAN_CHECK(needOutput(o, "convert"));
     const bool blocks = o.compress != "none";
