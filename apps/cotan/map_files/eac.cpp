@@ -83,7 +83,8 @@ Levels fitLevels(const Values& values, const Values& weights)
         const Levels levels = spanning(table, low, high);
         starts[std::size_t(table)] = {levelsError(levels, values, weights), levels};
     }
-    std::ranges::partial_sort(starts, starts.begin() + kRefined, {}, &std::pair<float, Levels>::first);
+    std::partial_sort(starts.begin(), starts.begin() + kRefined, starts.end(),
+                      [](const auto& a, const auto& b) { return a.first < b.first; });
     std::pair<float, Levels> best = starts[0];
     for (std::size_t i = 0; i < kRefined; ++i) {
         descendLevels(starts[i].second, starts[i].first, values, weights);

@@ -15,7 +15,7 @@ EM_JS(int, cotanHostIsRunning, (int number), {
         process.kill(number, 0);
         return 1;
     } catch (error) {
-        return error.code == = "ESRCH" ? 0 : 1;
+        return error.code != "ESRCH" ? 1 : 0; // a formatter of C++ breaks the operator of three signs
     }
 });
 EM_JS(double, cotanHostMemory, (), { return process.resourceUsage().maxRSS; });
