@@ -64,9 +64,14 @@ Status findSource(const MapConvertCommandOptions& o, ConvertFileOptions& options
 
 Status run(const MapConvertCommandOptions& o)
 {
-    const auto stated = parseConvention(o.from == kFound ? "opengl" : o.from, "--from");
-    if (!stated)
-        return usageError(fmt::format("{}; or {} alone", stated.error().message, kFound));
+    const auto stated = parseStatedConvention(o.from == kFound ? "opengl" : o.from);
+    if (!stated) {
+        constexpr std::string_view kExpected = "expected ";
+        std::string why = stated.error().message;
+        if (why.starts_with(kExpected))
+            why.insert(kExpected.size(), fmt::format("{}, or ", kFound));
+        return usageError("--from: " + why);
+    }
     COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
     COTAN_CHECK(needOutput(o, "convert"));
     const bool blocks = o.compress != "none";
