@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "core/try.hpp"
 #include "image/format_table.hpp"
 #include "map_files/texture_file.hpp"
 #include "map_options.hpp"

@@ -184,7 +184,8 @@ void takeTask(Parts& parts)
         lines.push_back(line.starts_with(kPrefix) ? line.substr(kPrefix.size()) : line);
         at = next + 1;
     }
-    std::ranges::stable_partition(lines, [&](const std::string& line) { return !line.starts_with(kWarning); });
+    std::stable_partition(lines.begin(), lines.end(),
+                          [&](const std::string& line) { return !line.starts_with(kWarning); });
     if (end->code != 0 && end->code != kOverLimit)
         state.result.title += end->code < 0 ? ": ended" : fmt::format(": exit code {}", end->code);
     if (lines.empty())

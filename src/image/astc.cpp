@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/loops.hpp"
+#include "core/try.hpp"
 
 namespace cotan {
 
