@@ -83,17 +83,13 @@ Task bakeTask(const State& s, const char* title, const std::vector<std::string>&
     addReading(s, task.words, /*up*/ true);
     if (highUpOf(s) != s.picture.up)
         task.words.insert(task.words.end(), {"--high-up", wordOf(kUps, highUpOf(s))});
-    const fs::path low = s.picture.model;
+    std::string file = nameBeside(s.picture.model, maps.empty() ? "-normal" : "-maps", maps.empty() ? ".png" : "");
     if (!maps.empty()) {
-        const fs::path folder = nameBeside(low, "-maps", "");
-        task.words.insert(task.words.end(),
-                          {"--maps", fmt::format("{}", fmt::join(maps, ",")), "-o", (folder / "").string()});
-        task.shows = {"normal-map " + (folder / "normal.png").string(), "convention "};
-    } else {
-        const std::string file = nameBeside(low, "-normal", ".png");
-        task.words.insert(task.words.end(), {"-o", file});
-        task.shows = {"normal-map " + file, "convention "};
+        task.words.insert(task.words.end(), {"--maps", fmt::format("{}", fmt::join(maps, ","))});
+        file = (fs::path(file) / "").string(); // a folder
     }
+    task.words.insert(task.words.end(), {"-o", file});
+    task.shows = {"normal-map " + (maps.empty() ? file : file + "normal.png"), "convention "};
     return task;
 }
 
