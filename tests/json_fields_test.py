@@ -51,6 +51,7 @@ map detect rocks.png
 map detect height.png
 map detect rocks.png gone.png
 map convert rocks.png --from gltf --to directx -o o.png
+map convert rocks.png --from gltf --to directx --max-degrees 1 --for mobile -o o.ktx2
 map detect o.png
 map diff rocks.png o.png
 map from-height height.png -o fh.png

@@ -40,7 +40,8 @@ TEST(MapKtx2, ktxParseReadsFormatDescriptorAndLevels)
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 44)));
     for (const Expected& e :
          {Expected{"none", "x", 37, 1, {0, 1, 2, 15}, 4, 1}, Expected{"bc7", "x", 145, 134, {0}, 16, 4},
-          Expected{"bc5", "x", 141, 132, {0, 1}, 16, 4}, Expected{"bc5", "x_roughness", 139, 131, {0}, 8, 4}}) {
+          Expected{"bc3", "x", 137, 130, {15, 0}, 16, 4}, Expected{"bc5", "x", 141, 132, {0, 1}, 16, 4},
+          Expected{"bc5", "x_roughness", 139, 131, {0}, 8, 4}}) {
         for (const char* extension : {".ktx2", ".dds"})
             ASSERT_EQ(runTool({"map", "mips", "map.png", "--compress", e.compress, "-o", std::string("x") + extension,
                                "--overwrite"},
@@ -72,7 +73,9 @@ TEST(MapKtx2, ktxParseReadsFormatDescriptorAndLevels)
         }
         // The same levels as in the DDS file, which OpenImageIO reads in another test.
         const std::string dds = readWhole(folder / (e.file + ".dds"));
-        EXPECT_TRUE(dds.substr(e.side == 4 ? 148 : 128) == readWhole(folder / (e.file + ".ktx2.levels"))) << e.compress;
+        EXPECT_TRUE(dds.substr(e.side == 4 && e.compress != "bc3" ? 148 : 128)
+                    == readWhole(folder / (e.file + ".ktx2.levels")))
+            << e.compress;
         ASSERT_EQ(k["levels"].size(), 6u); // 44, 22, 11, 5, 2, 1
         for (std::size_t level = 0; level < 6; ++level) {
             const std::size_t width = 44u >> level, across = (width + std::size_t(e.side) - 1) / std::size_t(e.side);

@@ -89,6 +89,8 @@ CASES = [
     ("map convert rocks.png --from gltf --to directx -o out.exr", {"--bits": "~auto | ~float | !8 | !16 | *"}),
     ("map convert rocks.png --from gltf --to directx --strength 0.5 -o out.png", {"--dither": ""}),
     ("map convert rocks.png --from gltf --to directx -o out.ktx2", {"--compress": "~none | *"}),
+    ("map convert rocks.png --from gltf --to directx,xy -o out.ktx2", {"--swizzle": "~auto | ~rg | &ra,rrrg | *"}),
+    ("map convert rocks.png --from gltf --to directx,xy --for mobile -o out.ktx2 --max-degrees 0.5", {"--max-degrees": "2 | 0.3", "--for": "desktop | ~mobile"}),
     ("map convert rocks.png --from gltf --to object --mesh panel.gltf -o out.png", {"--mesh": "high.obj | room.gltf", "--frame": "~smooth | &paper-nodet,paper-transpose | &mikktspace,area-weighted | !cotangent-2013 | !nonperspective | !paper-orthogonal | *"}),
     ("map convert rocks.png --from gltf --to object --mesh room.gltf -o out.png", {"--material": "~-1 | 0 | 1"}),
     ("map convert rocks.png --from gltf --to object --mesh panel.gltf --frame vertex -o out.png", {"--tangents": "~stored | *"}),
@@ -111,6 +113,7 @@ CASES = [
         "--from": "opengl | directx | slope", "--to": "directx", "--model": "*", "--roughness": "0.2 | 0.8",
         "--threads": "=1 | =3", "--memory": "=800"}),
     ("map mips rocks.png --from gltf --to gltf -o out.ktx2", {"--compress": "*"}),
+    ("map mips rocks.png --from gltf --to gltf,xy -o out.ktx2", {"--swizzle": "~auto | ~rg | &ra,rrrg | *"}),
     ("map mips rocks.png --from gltf -o out.exr", {"--keep-lengths": "", "--bits": "~auto | ~float | !8 | !16 | *"}),
     (BAKE, {
         "--high": "low.obj | low.stl", "--low": "room.gltf", "--size": "16 | 24x20", "--kind": "~normal | !base-color | !roughness | !metallic | !roughness-metallic | !emissive | *", "--frame": "~mikktspace | !cotangent-2013 | !nonperspective | !paper-orthogonal | *",

@@ -43,6 +43,7 @@ struct Format {
 TexelCode twoOf(TexelCode code)
 {
     code.two = true;
+    code.swizzle = Swizzle::greyAlpha;
     return code;
 }
 

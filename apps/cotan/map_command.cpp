@@ -19,17 +19,25 @@ void addBits(Arguments& command, MapOptions& options, const std::string& help)
         .under(HelpGroup::output);
 }
 
-void addCompress(Arguments& command, std::string& compress)
+void addCompress(Arguments& command, std::string& compress, std::string& swizzle)
 {
     command
         .option(
             "--compress", compress,
             "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
-                + ": none; blocks of one byte per texel, bc5 (x and y only, more exact) or bc7 (x, y, z and "
-                  "alpha); and for phones, in .ktx2, eac-rg11 (x and y, one byte) or astc-4x4 to astc-8x8 (16 bytes "
-                  "for as many texels; x, y and z, or x in red and y in alpha if --to has two channels)")
+                + ": none; blocks of one byte per texel, bc5 (x and y only, more exact), bc7 (x, y, z and alpha) or "
+                  "bc3 (x in alpha, y in green, for old engines); and for phones, in .ktx2, eac-rg11 (x and y, one "
+                  "byte) or astc-4x4 to astc-8x8 (16 bytes for as many texels; x, y and z, or two channels if --to "
+                  "has them)")
         .in("NAME")
         .offers(compressionWords())
+        .under(HelpGroup::output);
+    command
+        .option("--swizzle", swizzle,
+                "where a map of two channels has x and y: red and green (rg), red and alpha (ra or rrrg) or alpha and "
+                "green (ag); auto: ra for astc, ag for bc3, else rg")
+        .in("NAME")
+        .offers(swizzleWords())
         .under(HelpGroup::output);
 }
 

@@ -18,7 +18,8 @@ struct MapConvertCommandOptions : MapOptions {
     std::string file, from, to;
     double strength = 1;
     bool normalise = false, dither = false;
-    std::string mesh, frame = "smooth", compress = "none";
+    std::string mesh, frame = "smooth", compress = "none", swizzle = "auto", device;
+    double maxDegrees = 0;
     TangentOrigin tangents = TangentOrigin::stored;
     Up up = Up::y;
     int material = -1;
@@ -62,6 +63,29 @@ Status findSource(const MapConvertCommandOptions& o, ConvertFileOptions& options
     return Done{};
 }
 
+// The budget of --max-degrees and --for, which go together.
+Result<std::optional<FormatBudget>> budgetOf(const MapConvertCommandOptions& o)
+{
+    if ((o.maxDegrees > 0) == o.device.empty())
+        return usageError(o.device.empty() ? "--max-degrees needs --for: whose formats to choose from"
+                                           : "--for needs --max-degrees: how much a format may cost");
+    if (o.device.empty())
+        return std::optional<FormatBudget>();
+    COTAN_TRY(device, valueOf<Device>("--for", o.device, {{"desktop", Device::desktop}, {"mobile", Device::mobile}}));
+    return std::optional(FormatBudget{ChoiceLimits::of(o.maxDegrees), *device});
+}
+
+// The formats that were tried, as a table.
+void sayTried(const MapConvertCommandOptions& o, const ConvertedFile& done)
+{
+    if (done.tried.empty())
+        return;
+    say(o, "{:<10}  bits a texel  mean degrees  99 %", "format");
+    for (const TriedFormat& tried : done.tried)
+        say(o, "{:<10}  {:12.2f}  {:12.3f}  {:.2f}{}", tried.compress, tried.bitsPerTexel, tried.meanDegrees,
+            tried.percentile99, tried.compress == done.compress ? "  chosen" : "");
+}
+
 Status run(const MapConvertCommandOptions& o)
 {
     const auto stated = parseStatedConvention(o.from == kFound ? "opengl" : o.from);
@@ -74,15 +98,17 @@ Status run(const MapConvertCommandOptions& o)
     }
     COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
     COTAN_CHECK(needOutput(o, "convert"));
-    const bool blocks = o.compress != "none";
     ConvertFileOptions options{.from = *stated,
                                .to = *written,
                                .bits = o.bits,
                                .compress = o.compress,
+                               .swizzle = o.swizzle,
                                .strength = float(o.strength),
                                .normalise = o.normalise,
                                .dither = o.dither,
                                .mesh = {}};
+    COTAN_TRY(budget, budgetOf(o));
+    options.budget = *budget;
     if (o.from == kFound)
         COTAN_CHECK(findSource(o, options));
     const Convention& to = options.to;
@@ -103,8 +129,15 @@ Status run(const MapConvertCommandOptions& o)
     if (done->counts.clamped > 0)
         warn(o, "{}: {} texels are steeper than {} can hold; clamped", o.file, done->counts.clamped, describe(to));
     const std::vector<std::string> warnings = warned(o, done->notes);
-    const std::string bits = blocks ? o.compress : bitsName(done->bits);
+    sayTried(o, *done);
+    const std::string bits = done->compress != "none" ? done->compress : bitsName(done->bits);
     say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bits, describe(done->to));
+    Json tried = Json::array();
+    for (const TriedFormat& format : done->tried)
+        tried.push_back({{"compress", format.compress},
+                         {"bits_per_texel", format.bitsPerTexel},
+                         {"mean_degrees", format.meanDegrees},
+                         {"percentile99_degrees", format.percentile99}});
     return writeReport(o,
                        {{"command", "map convert"},
                         {"file", o.file},
@@ -114,6 +147,7 @@ Status run(const MapConvertCommandOptions& o)
                         {"width", done->width},
                         {"height", done->height},
                         {"bits", bits},
+                        {"tried", tried},
                         {"invalid", done->counts.invalid},
                         {"clamped", done->counts.clamped},
                         {"warnings", warnings}});
@@ -148,7 +182,18 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
     a.flag("--normalise", o.normalise,
            "normalise every vector; without this, vectors of three channels keep their lengths")
         .under(HelpGroup::output);
-    addCompress(a, o.compress);
+    addCompress(a, o.compress, o.swizzle);
+    a.option("--max-degrees", o.maxDegrees,
+             "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
+                 + ", in place of --compress: take the smallest format that costs no more than this angle on "
+                   "average, and ten times as much on 99 % of the texels; prints what was tried")
+        .within(0.0, 180.0)
+        .in("D")
+        .under(HelpGroup::output);
+    a.option("--for", o.device, "with --max-degrees: desktop (bc5 or bc7) or mobile (astc of all sizes, eac-rg11)")
+        .in("NAME")
+        .offers({"desktop", "mobile"})
+        .under(HelpGroup::output);
     addDither(a, o.dither);
     a.option("--mesh", o.mesh, "mesh that uses the map; required to or from object space").in("FILE").reads();
     a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map")

@@ -12,7 +12,7 @@ namespace cotan::app {
 namespace {
 
 struct MapMipsCommandOptions : MapOptions {
-    std::string file, from = "gltf,exact", to, model = "lean", compress = "none";
+    std::string file, from = "gltf,exact", to, model = "lean", compress = "none", swizzle = "auto";
     double roughness = 0.3;
     bool keepLengths = false;
 };
@@ -33,7 +33,7 @@ Status run(const MapMipsCommandOptions& o)
     const auto plan = [&](const std::filesystem::path& file) {
         return file == first ? Status(Done{}) : planOutput("-o", file);
     };
-    const MipFileOptions options{*from, to, *model, o.roughness, o.keepLengths, o.bits, o.compress, plan};
+    const MipFileOptions options{*from, to, *model, o.roughness, o.keepLengths, o.bits, o.compress, o.swizzle, plan};
     const auto done = onFiles(o, "filtering levels",
                               [&](const FileOptions& files) { return writeMips(o.file, o.output, options, files); });
     if (!done)
@@ -81,7 +81,7 @@ void declare(Arguments& a, MapMipsCommandOptions& o)
     a.flag("--keep-lengths", o.keepLengths, "with three channels: store mean vectors with their shortened lengths")
         .under(HelpGroup::output);
     addBits(a, o, " (as the map)");
-    addCompress(a, o.compress);
+    addCompress(a, o.compress, o.swizzle);
 }
 
 } // namespace

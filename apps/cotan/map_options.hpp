@@ -19,7 +19,7 @@ struct MapOptions : CommonOptions {
 
 // Options shared by subcommands, besides those of all commands.
 void addBits(Arguments& command, MapOptions& options, const std::string& help);
-void addCompress(Arguments& command, std::string& compress);
+void addCompress(Arguments& command, std::string& compress, std::string& swizzle);
 void addDither(Arguments& command, bool& dither);
 
 // parseStatedConvention with the option's name in its error.

@@ -57,14 +57,19 @@ Status decodeAstc(int width, int height, std::span<const std::byte> blocks, Imag
     return code == ASTCENC_SUCCESS ? Status(Done{}) : failed(code);
 }
 
-Result<std::vector<std::byte>> encodeAstc(int width, int height, const Image& image, bool two)
+Result<std::vector<std::byte>> encodeAstc(int width, int height, const Image& image, AstcChannels channels)
 {
     const unsigned threads = unsigned(threadsFor(image.pixelCount(), 1 << 14));
-    COTAN_TRY(context, open(width, height, ASTCENC_PRE_MEDIUM, two ? ASTCENC_FLG_MAP_NORMAL : 0, threads));
+    COTAN_TRY(context,
+              open(width, height, ASTCENC_PRE_MEDIUM, channels == AstcChannels::greyAlpha ? ASTCENC_FLG_MAP_NORMAL : 0,
+                   threads));
     void* data = nullptr;
     astcenc_image from = viewOf(image, data, ASTCENC_TYPE_F32);
-    const astcenc_swizzle swizzle = two ? astcenc_swizzle{ASTCENC_SWZ_R, ASTCENC_SWZ_R, ASTCENC_SWZ_R, ASTCENC_SWZ_G}
-                                        : astcenc_swizzle{ASTCENC_SWZ_R, ASTCENC_SWZ_G, ASTCENC_SWZ_B, ASTCENC_SWZ_A};
+    const astcenc_swizzle swizzle = channels == AstcChannels::greyAlpha
+        ? astcenc_swizzle{ASTCENC_SWZ_R, ASTCENC_SWZ_R, ASTCENC_SWZ_R, ASTCENC_SWZ_G}
+        : channels == AstcChannels::alphaGreen
+        ? astcenc_swizzle{ASTCENC_SWZ_1, ASTCENC_SWZ_G, ASTCENC_SWZ_1, ASTCENC_SWZ_R}
+        : astcenc_swizzle{ASTCENC_SWZ_R, ASTCENC_SWZ_G, ASTCENC_SWZ_B, ASTCENC_SWZ_A};
     const std::size_t across = std::size_t((image.width + width - 1) / width),
                       down = std::size_t((image.height + height - 1) / height);
     std::vector<std::byte> blocks(across * down * 16);

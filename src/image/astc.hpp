@@ -17,9 +17,11 @@ bool readsAstc();
 // that break the format become magenta, as on a GPU. image: unorm8.
 Status decodeAstc(int width, int height, std::span<const std::byte> blocks, Image& image);
 
-// Encodes an image of float32, 0 to 1. two: red and green only, x and y of unit vectors; they are stored as the
-// luminance and alpha of a block (red, red, red, green), the form that libastcenc has for normals. Else red, green,
-// blue and alpha. The bytes do not depend on the number of threads.
-Result<std::vector<std::byte>> encodeAstc(int width, int height, const Image& image, bool two);
+// What the blocks hold: the image's own components; or only its red and green, x and y of unit vectors, as luminance
+// and alpha (red, red, red, green), the form that libastcenc has for normals, or as (1, green, 1, red).
+enum class AstcChannels { all, greyAlpha, alphaGreen };
+
+// Encodes an image of float32, 0 to 1. The bytes do not depend on the number of threads.
+Result<std::vector<std::byte>> encodeAstc(int width, int height, const Image& image, AstcChannels channels);
 
 } // namespace cotan

@@ -51,7 +51,7 @@ std::string writeJpeg(const Image&, int) { return {}; }
 #ifdef COTAN_WITHOUT_ASTC
 bool readsAstc() { return false; }
 Status decodeAstc(int, int, std::span<const std::byte>, Image&) { return notBuiltWith("libastcenc", "libastcenc-dev"); }
-Result<std::vector<std::byte>> encodeAstc(int, int, const Image&, bool)
+Result<std::vector<std::byte>> encodeAstc(int, int, const Image&, AstcChannels)
 {
     return notBuiltWith("libastcenc", "libastcenc-dev");
 }

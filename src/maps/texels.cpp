@@ -106,6 +106,15 @@ void unswizzle(Image& image, Swizzle from)
     });
 }
 
+void swizzle(Image& image, Swizzle to)
+{
+    if (to == Swizzle::rg)
+        return;
+    changeTexels(image, [&](glm::vec4& t) {
+        t = to == Swizzle::greyAlpha ? glm::vec4(t.x, t.x, t.x, t.y) : glm::vec4(1, t.y, 1, t.x);
+    });
+}
+
 void loadRow(const Image& image, int row, std::span<glm::vec4> texels)
 {
     loadTexels(image, std::size_t(row) * std::size_t(image.width), texels);

@@ -39,6 +39,9 @@ struct ChannelRange {
 // Moves x to red and y to green; sets blue to 0.5 and alpha to 1. Does nothing for rg.
 void unswizzle(Image& image, Swizzle from);
 
+// Moves x from red and y from green to where `to` has them. Does nothing for rg; alphaGreen has red and blue of 1.
+void swizzle(Image& image, Swizzle to);
+
 // Loads the stored components of one row as a shader samples them: unorm in [0,1], floats unchanged. texels:
 // image.width entries.
 void loadRow(const Image& image, int row, std::span<glm::vec4> texels);

@@ -196,6 +196,15 @@ void encodeNormals(const NormalTexels& t, std::byte* to)
 
 } // namespace
 
+void encodeAlpha(Values& values, const Values& weights, std::byte* to)
+{
+    const Ends ends = fit(values, weights);
+    Positions positions{};
+    for (std::size_t i = 0; i < 16; ++i)
+        positions[i] = int(positionOf(kZero + at(values, i), float(ends.low), 7 / float(ends.high - ends.low))[0]);
+    put(ends, positions, to);
+}
+
 std::vector<std::byte> encodeBc5(const Image& map, const CodeScale& scale)
 {
     return encodeBlocks(
@@ -209,11 +218,7 @@ std::vector<std::byte> encodeBc4(const Image& image)
         loadCodes(image, left, top, 0, 255, 255, values, unused);
         Values ones;
         ones.fill(kZero + 1);
-        const Ends ends = fit(values, ones);
-        Positions positions{};
-        for (std::size_t i = 0; i < 16; ++i)
-            positions[i] = int(positionOf(kZero + at(values, i), float(ends.low), 7 / float(ends.high - ends.low))[0]);
-        put(ends, positions, to);
+        encodeAlpha(values, ones, to);
     });
 }
 

@@ -1,5 +1,5 @@
-// Encoders for blocks of 4 x 4 texels: BC5 and EAC for two channels of normals, BC7 for three and alpha, BC4 for one
-// channel.
+// Encoders for blocks of 4 x 4 texels: BC5, BC3 and EAC for two channels of normals, BC7 for three and alpha, BC4 for
+// one channel.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +23,10 @@ std::vector<std::byte> encodeBc5(const Image& map, const CodeScale& scale);
 // and alpha or, with `lengths`, of vectors and alpha. map: float32; red, green and blue are (n + 1) / 2. Blocks whose
 // alpha is 1 keep it exactly. The bytes do not depend on the number of threads.
 std::vector<std::byte> encodeBc7(const Image& map, const CodeScale& scale, bool lengths = false);
+
+// The same as BC3 with x in alpha and y in green, "DXT5nm": red and blue are 1. Green has 6 bits and four steps, so
+// this is less exact than BC5.
+std::vector<std::byte> encodeBc3(const Image& map, const CodeScale& scale);
 
 // As encodeBc5, as EAC RG11: the codes of `scale` are those of 11 bits, 0 to 2047.
 std::vector<std::byte> encodeEacRg11(const Image& map, const CodeScale& scale);

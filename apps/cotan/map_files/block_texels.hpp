@@ -96,6 +96,10 @@ inline NormalTexels normalTexels(const Image& map, int left, int top, const Code
     return t;
 }
 
+// Encodes one channel of a block as BC4, and as the alpha of BC3: 8 bytes. values: codes; weights: of their squared
+// errors.
+void encodeAlpha(Values& values, const Values& weights, std::byte* to);
+
 // Encodes all blocks, in rows from the top. encode(left, top, to): writes the block whose first texel is (left, top).
 template<class Encode> std::vector<std::byte> encodeBlocks(const Image& map, std::size_t bytes, const Encode& encode)
 {

@@ -6,6 +6,7 @@
 
 #include "by_mesh.hpp"
 #include "core/try.hpp"
+#include "image/format_table.hpp"
 #include "stream.hpp"
 #include "texture_file.hpp"
 
@@ -65,6 +66,20 @@ Status writeTexture(const std::filesystem::path& out, const Image& map, const Te
     return writeTextureFile(out, code, {*std::move(level)}, map.frame);
 }
 
+// Writes the texture that fits the budget. map: in codeConvention of blocks.
+Status writeChosen(const std::filesystem::path& out, const Image& map, const RecodeSettings& settings,
+                   const ConvertFileOptions& o, const FileOptions& files, ConvertedFile& done)
+{
+    RecodeCounts again;
+    const Image pixels =
+        recode(map, {.from = settings.to, .to = o.to, .type = PixelType::unorm8, .dither = o.dither}, again);
+    COTAN_TRY(chosen, chooseFormat(map, pixels, o.to, o.swizzle, out, *o.budget, files));
+    done.compress = chosen->compress;
+    done.tried = chosen->tried;
+    done.to = storedConvention(chosen->code, o.to);
+    return writeTextureFile(out, chosen->code, {std::move(chosen->level)}, map.frame);
+}
+
 // Image::frame of the result: in tangent space that of the mesh, else that of the map; in object space none.
 std::string frameAfter(const std::string& stored, const ConvertFileOptions& o)
 {
@@ -75,10 +90,11 @@ std::string frameAfter(const std::string& stored, const ConvertFileOptions& o)
 
 // Converts an image strip by strip.
 Status convertByRows(const OpenMap& map, const std::filesystem::path& out, const RecodeSettings& settings,
-                     const FileOptions& files, ConvertedFile& done)
+                     Swizzle placed, const FileOptions& files, ConvertedFile& done)
 {
     RowReader& in = *map.rows;
-    const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
+    const bool alpha = placed != Swizzle::rg
+        || (in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz);
     std::atomic<std::size_t> invalid = 0, clamped = 0;
     const Status streamed =
         streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half, done.frame},
@@ -88,6 +104,7 @@ Status convertByRows(const OpenMap& map, const std::filesystem::path& out, const
                          here.firstRow = firstRow;
                          RecodeCounts found;
                          Image rows = recode(strip, here, found);
+                         swizzle(rows, placed);
                          invalid += found.invalid;
                          clamped += found.clamped;
                          return rows;
@@ -105,23 +122,39 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
     COTAN_CHECK(checkOptions(o));
     COTAN_TRY(opened, openMap(map, o.from, "options.from", files.limits));
     RowReader& in = *opened->rows;
-    COTAN_TRY(code, codeFor(o.compress, o.bits, o.to, out));
+    COTAN_TRY(code, codeFor(o.compress, o.bits, o.to, out, o.swizzle));
+    if (o.budget && (o.compress != "none" || !isTextureFile(out)))
+        return about("options.maxDegrees",
+                     o.compress != "none" ? usageError(fmt::format("chooses the format; found {} as well", o.compress))
+                                          : usageError(fmt::format("expected a {} file; found '{}'",
+                                                                   imageEndings(&ImageFormat::texture, ", ", " or "),
+                                                                   out.extension().string())));
     COTAN_TRY(bits, isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, in.type, o.to, out));
+    Convention to = codeConvention(*code, o.to);
+    if (o.budget)
+        to.expansion = Expansion::biased; // as all blocks need it
     const RecodeSettings settings{.from = opened->convention,
-                                  .to = codeConvention(*code, o.to),
-                                  .type = *code == TexelCode::rgba8 ? bits->type : PixelType::float32,
+                                  .to = to,
+                                  .type = *code == TexelCode::rgba8 && !o.budget ? bits->type : PixelType::float32,
                                   .strength = o.strength,
                                   .normalise = o.normalise,
                                   .dither = o.dither};
     ConvertedFile done{
-        in.width, in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention, storedConvention(*code, o.to)};
+        in.width,  in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention, storedConvention(*code, o.to),
+        o.compress};
     if (!o.mesh && !isTextureFile(out)) {
-        const Status streamed = convertByRows(*opened, out, settings, files, done);
+        const Status streamed = convertByRows(*opened, out, settings, code->swizzle, files, done);
         return streamed ? Result<ConvertedFile>(done) : streamed.error();
     }
     COTAN_TRY(converted,
               o.mesh ? convertByMesh(map, *o.mesh, settings, files, done) : convertWhole(map, settings, files, done));
     converted->frame = done.frame;
+    if (o.budget) {
+        const Status written = writeChosen(out, *converted, settings, o, files, done);
+        return written ? Result<ConvertedFile>(done) : written.error();
+    }
+    if (!isTextureFile(out))
+        swizzle(*converted, code->swizzle);
     const Status written =
         isTextureFile(out) ? writeTexture(out, *converted, *code, o.to) : writeMap(out, *converted, done.bits);
     return written ? Result<ConvertedFile>(done) : written.error();

@@ -6,6 +6,7 @@
 #include "cotan/frame.hpp"
 #include "cotan/maps.hpp"
 #include "cotan/view.hpp"
+#include "map_files/choose.hpp"
 #include "map_files/map_file.hpp"
 
 namespace cotan::app {
@@ -22,12 +23,14 @@ struct MeshOfMap {
 struct ConvertFileOptions {
     StatedConvention from{};
     Convention to{};
-    std::string bits = "auto";       // as for bitsFor; .dds and .ktx2 have 8
-    std::string compress = "none";   // .dds and .ktx2: a word of compressionWords
-    float strength = 1;              // factor on the slopes, not 0; negative values turn bumps into dents
-    bool normalise = false;          // three channels to three; if false, lengths are kept
-    bool dither = false;             // adds half a step of noise before rounding
-    std::optional<MeshOfMap> mesh{}; // for conversion between tangent and object space only; strength must be 1
+    std::string bits = "auto";            // as for bitsFor; .dds and .ktx2 have 8
+    std::string compress = "none";        // .dds and .ktx2: a word of compressionWords
+    std::string swizzle = "auto";         // a word of swizzleWords
+    std::optional<FormatBudget> budget{}; // .dds and .ktx2: chooses the format in place of `compress`
+    float strength = 1;                   // factor on the slopes, not 0; negative values turn bumps into dents
+    bool normalise = false;               // three channels to three; if false, lengths are kept
+    bool dither = false;                  // adds half a step of noise before rounding
+    std::optional<MeshOfMap> mesh{};      // for conversion between tangent and object space only; strength must be 1
 };
 
 struct ConvertedFile {
@@ -39,13 +42,15 @@ struct ConvertedFile {
     // to object space none.
     std::string frame = {};
     Convention from{}, to{};             // how the map was read, and how the result is stored
+    std::string compress = "none";       // the word of the stored format
+    std::vector<TriedFormat> tried = {}; // with a budget
     std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
 };
 
 // Converts a file. With a mesh, or to .dds or .ktx2, the map is held in memory. Errors: ErrorKind::usage for options
 // that contradict each other, with messages that begin with "options.mesh: ", "options.strength: ", "options.bits: ",
-// "options.compress: ", "options.from: " or "options.to: "; as openRows, createRows and loadScene; ErrorKind::input if
-// the mesh covers no texel; ErrorKind::stopped.
+// "options.compress: ", "options.swizzle: ", "options.from: " or "options.to: "; as openRows, createRows and loadScene;
+// ErrorKind::input if the mesh covers no texel; ErrorKind::limit as chooseFormat; ErrorKind::stopped.
 Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
                                   const ConvertFileOptions& options, const FileOptions& files = {});
 

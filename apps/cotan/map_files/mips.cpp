@@ -48,7 +48,9 @@ Status writeTextures(const std::filesystem::path& out, const std::vector<MipLeve
     const std::filesystem::path second = marked(out, "_roughness");
     if (o.mayWrite)
         COTAN_CHECK(o.mayWrite(second));
-    const TexelCode grey = code == TexelCode::bc5 ? TexelCode::bc4 : TexelCode::eacR11;
+    const TexelCode grey = code == TexelCode::bc5 || code == TexelCode::bc3 ? TexelCode::bc4
+        : code == TexelCode::rgba8                                          ? TexelCode::rgba8
+                                                                            : TexelCode::eacR11;
     for (const MipLevel& level : chain) {
         COTAN_TRY(made, levelOf(level.normals, code, *o.to));
         normals.push_back(*std::move(made));
@@ -116,12 +118,12 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
 {
     MipFileOptions o = requested;
     if (o.to) // fails before the work
-        COTAN_CHECK(checkLengths(codeFor(o.compress, o.bits, *o.to, out), o));
+        COTAN_CHECK(checkLengths(codeFor(o.compress, o.bits, *o.to, out, o.swizzle), o));
     COTAN_TRY(read, readMap(file, o.from, "options.from", files.limits));
     const Image* const map = &read->image;
     const Convention from = read->convention, to = o.to.value_or(from);
     o.to = to;
-    COTAN_TRY(code, codeFor(o.compress, o.bits, to, out));
+    COTAN_TRY(code, codeFor(o.compress, o.bits, to, out, o.swizzle));
     COTAN_CHECK(checkLengths(code, o));
     COTAN_TRY(bits, bitsOfMips(*code, map->type, out, o));
     // 32 bytes of moments for a quarter of the texels, and normals and roughness of all levels.
@@ -141,8 +143,11 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
                            .model = o.model,
                            .roughness = o.roughness,
                            .type = bits->type});
-    for (MipLevel& level : chain)
+    for (MipLevel& level : chain) {
         level.normals.frame = map->frame;
+        if (!isTextureFile(out))
+            swizzle(level.normals, code->swizzle);
+    }
     if (!steps.step())
         return stoppedError();
     if (Status written = isTextureFile(out) ? writeTextures(out, chain, *code, o) : writeChain(out, chain, *bits, o);

@@ -18,6 +18,7 @@ struct MipFileOptions {
     bool keepLengths = false;      // three channels: store mean vectors with their shortened lengths
     std::string bits = "auto";     // as for bitsFor; .dds and .ktx2 have 8
     std::string compress = "none"; // .dds and .ktx2: a word of compressionWords
+    std::string swizzle = "auto";  // a word of swizzleWords
     // Called for each file before the first is written; an error ends the call. May be empty.
     std::function<Status(const std::filesystem::path&)> mayWrite{};
 };
@@ -35,10 +36,11 @@ struct MippedFile {
 };
 
 // Writes all levels and the roughness that they need: .dds and .ktx2 hold both, the roughness in alpha; where
-// blocks have two channels it is in OUT_roughness.dds, as BC4 or EAC R11. OUT.png and other formats become OUT_0.png,
+// alpha is not free it is in OUT_roughness.dds, as pixels, BC4 or EAC R11. OUT.png and other formats become OUT_0.png,
 // OUT_roughness_0.png, OUT_1.png etc. The map and its levels are held in memory. Errors: as readImage and writeImage;
 // ErrorKind::input: the levels take more than three times workBudget(); ErrorKind::usage: "options.bits: ",
-// "options.compress: ", "options.keepLengths: ", "options.to: "; ErrorKind::stopped, before anything is written.
+// "options.compress: ", "options.swizzle: ", "options.keepLengths: ", "options.to: "; ErrorKind::stopped, before
+// anything is written.
 Result<MippedFile> writeMips(const std::filesystem::path& map, const std::filesystem::path& out,
                              const MipFileOptions& options, const FileOptions& files = {});
 

@@ -19,8 +19,11 @@
 #include "image/checks.hpp"
 #include "image/dds.hpp"
 #include "image/format_table.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::app {
+
+using maps::Swizzle;
 
 namespace {
 
@@ -40,6 +43,7 @@ CodeFacts factsOf(const TexelCode& code)
     switch (code.kind) {
     case TexelCode::bc5: return {83, 141, 16, 132, {0, 1}};
     case TexelCode::bc7: return {98, 145, 16, 134, {0}};
+    case TexelCode::bc3: return {77, 137, 16, 130, {15, 0}};
     case TexelCode::bc4: return {80, 139, 8, 131, {0}};
     case TexelCode::eacRg11: return {0, 155, 16, 161, {0, 1}};
     case TexelCode::eacR11: return {0, 153, 8, 161, {0}};
@@ -55,8 +59,42 @@ CodeFacts factsOf(const TexelCode& code)
 
 std::string astcWord(const TexelCode& code) { return fmt::format("astc-{}x{}", code.width, code.height); }
 
-constexpr std::pair<const char*, TexelCode::Kind> kCodes[] = {
-    {"none", TexelCode::rgba8}, {"bc5", TexelCode::bc5}, {"bc7", TexelCode::bc7}, {"eac-rg11", TexelCode::eacRg11}};
+constexpr std::pair<const char*, TexelCode::Kind> kCodes[] = {{"none", TexelCode::rgba8},
+                                                              {"bc3", TexelCode::bc3},
+                                                              {"bc5", TexelCode::bc5},
+                                                              {"bc7", TexelCode::bc7},
+                                                              {"eac-rg11", TexelCode::eacRg11}};
+
+// The words of --swizzle besides auto; rrrg is another name of ra.
+constexpr std::pair<const char*, Swizzle> kSwizzles[] = {
+    {"rg", Swizzle::rg}, {"ra", Swizzle::greyAlpha}, {"ag", Swizzle::alphaGreen}, {"rrrg", Swizzle::greyAlpha}};
+
+// Where a format can hold two channels; the first is that of auto.
+std::vector<std::string> swizzlesOf(const TexelCode& code, const std::filesystem::path& file)
+{
+    if (code == TexelCode::astc)
+        return {"ra", "ag", "rrrg"};
+    if (code == TexelCode::bc3)
+        return {"ag"};
+    if (code != TexelCode::rgba8 || !imageFormatHas(file, &ImageFormat::alpha))
+        return {"rg"};
+    return {"rg", "ra", "ag", "rrrg"};
+}
+
+Result<Swizzle> swizzleFor(const std::string& word, const TexelCode& code, const std::string& compress,
+                           const std::filesystem::path& file)
+{
+    const std::vector<std::string> words = swizzlesOf(code, file);
+    const std::string& chosen = word == "auto" ? words[0] : word;
+    if (std::ranges::find(words, chosen) == words.end())
+        return about("options.swizzle",
+                     usageError(fmt::format("expected one of auto, {}, as {} has; found '{}'", fmt::join(words, ", "),
+                                            compress == "none" ? file.extension().string() : compress, word)));
+    for (const auto& [name, swizzle] : kSwizzles)
+        if (chosen == name)
+            return swizzle;
+    return Swizzle::rg;
+}
 
 std::optional<TexelCode> codeNamed(const std::string& word)
 {
@@ -83,7 +121,11 @@ void appendNumber(std::string& bytes, std::uint64_t number, int size)
 std::string ddsBytes(const TexelCode& code, const std::vector<TextureLevel>& levels)
 {
     const CodeFacts facts = factsOf(code);
-    const DdsCode stored = code == TexelCode::rgba8 ? DdsCode{} : DdsCode{"DX10", facts.dxgi, facts.bytes};
+    DdsCode stored;
+    if (code == TexelCode::bc3) // every reader knows its old name
+        stored = {"DXT5", 0, facts.bytes};
+    else if (code != TexelCode::rgba8)
+        stored = {"DX10", facts.dxgi, facts.bytes};
     std::string bytes;
     append(bytes, ddsHeader(stored, levels[0].width, levels[0].height, levels.size()));
     for (const TextureLevel& level : levels)
@@ -117,47 +159,6 @@ std::string descriptor(const TexelCode& code, const CodeFacts& facts)
         appendNumber(d, blocks ? 0xffffffff : 255, 4);
     }
     return d;
-}
-
-// Header, level index, descriptor, keys, and the levels, smallest first.
-std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& levels, const std::string& frame)
-{
-    const CodeFacts facts = factsOf(code);
-    std::string dataFormat = descriptor(code, facts), keys;
-    std::vector<std::string> entries = {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)};
-    if (code.two) // red, red, red, green: x is in red, y in alpha
-        entries.insert(entries.begin() + 1, std::string("KTXswizzle\0ra01", 16));
-    if (!frame.empty()) // last, since keys are sorted; null-terminated like the others
-        entries.push_back(std::string(kFrameKey) + '\0' + frame + '\0');
-    for (const std::string& entry : entries) {
-        appendNumber(keys, entry.size(), 4);
-        keys += entry + std::string((4 - entry.size() % 4) % 4, '\0');
-    }
-    const std::size_t descriptorAt = 80 + 24 * levels.size(), keysAt = descriptorAt + dataFormat.size();
-    std::string data(keysAt + keys.size(), '\0'); // precedes the levels; filled at the end
-    std::vector<std::size_t> offsets(levels.size());
-    for (std::size_t i = levels.size(); i-- > 0;) {
-        data.resize((data.size() + facts.bytes - 1) / facts.bytes * facts.bytes, '\0');
-        offsets[i] = data.size();
-        append(data, levels[i].texels);
-    }
-    std::string head = "\xabKTX 20\xbb\r\n\x1a\n";
-    for (const std::uint64_t number :
-         {std::uint64_t(facts.vulkan), std::uint64_t(1), std::uint64_t(levels[0].width),
-          std::uint64_t(levels[0].height), std::uint64_t(0), std::uint64_t(0), std::uint64_t(1),
-          std::uint64_t(levels.size()), std::uint64_t(0), std::uint64_t(descriptorAt), std::uint64_t(dataFormat.size()),
-          std::uint64_t(keysAt), std::uint64_t(keys.size())})
-        appendNumber(head, number, 4);
-    appendNumber(head, 0, 8);
-    appendNumber(head, 0, 8);
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        appendNumber(head, offsets[i], 8);
-        appendNumber(head, levels[i].texels.size(), 8);
-        appendNumber(head, levels[i].texels.size(), 8);
-    }
-    head += dataFormat + keys;
-    std::ranges::copy(head, data.begin());
-    return data;
 }
 
 // The scale by which a shader decodes codes: see Expansion.
@@ -198,6 +199,61 @@ std::vector<std::string> compressionWords()
     return words;
 }
 
+std::vector<std::string> swizzleWords()
+{
+    std::vector<std::string> words = {"auto"};
+    for (const auto& [name, swizzle] : kSwizzles)
+        words.emplace_back(name);
+    return words;
+}
+
+double bitsPerTexel(const TexelCode& code)
+{
+    return 8.0 * factsOf(code).bytes / (code == TexelCode::rgba8 ? 1 : code.width * code.height);
+}
+
+// Header, level index, descriptor, keys, and the levels, smallest first.
+std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& levels, const std::string& frame)
+{
+    const CodeFacts facts = factsOf(code);
+    std::string dataFormat = descriptor(code, facts), keys;
+    std::vector<std::string> entries = {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)};
+    if (code.swizzle != Swizzle::rg) // where a reader finds x and y
+        entries.insert(entries.begin() + 1,
+                       std::string(code.swizzle == Swizzle::greyAlpha ? "KTXswizzle\0ra01" : "KTXswizzle\0ag01", 16));
+    if (!frame.empty()) // last, since keys are sorted; null-terminated like the others
+        entries.push_back(std::string(kFrameKey) + '\0' + frame + '\0');
+    for (const std::string& entry : entries) {
+        appendNumber(keys, entry.size(), 4);
+        keys += entry + std::string((4 - entry.size() % 4) % 4, '\0');
+    }
+    const std::size_t descriptorAt = 80 + 24 * levels.size(), keysAt = descriptorAt + dataFormat.size();
+    std::string data(keysAt + keys.size(), '\0'); // precedes the levels; filled at the end
+    std::vector<std::size_t> offsets(levels.size());
+    for (std::size_t i = levels.size(); i-- > 0;) {
+        data.resize((data.size() + facts.bytes - 1) / facts.bytes * facts.bytes, '\0');
+        offsets[i] = data.size();
+        append(data, levels[i].texels);
+    }
+    std::string head = "\xabKTX 20\xbb\r\n\x1a\n";
+    for (const std::uint64_t number :
+         {std::uint64_t(facts.vulkan), std::uint64_t(1), std::uint64_t(levels[0].width),
+          std::uint64_t(levels[0].height), std::uint64_t(0), std::uint64_t(0), std::uint64_t(1),
+          std::uint64_t(levels.size()), std::uint64_t(0), std::uint64_t(descriptorAt), std::uint64_t(dataFormat.size()),
+          std::uint64_t(keysAt), std::uint64_t(keys.size())})
+        appendNumber(head, number, 4);
+    appendNumber(head, 0, 8);
+    appendNumber(head, 0, 8);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        appendNumber(head, offsets[i], 8);
+        appendNumber(head, levels[i].texels.size(), 8);
+        appendNumber(head, levels[i].texels.size(), 8);
+    }
+    head += dataFormat + keys;
+    std::ranges::copy(head, data.begin());
+    return data;
+}
+
 Status writeTextureFile(const std::filesystem::path& file, const TexelCode& code,
                         const std::vector<TextureLevel>& levels, const std::string& frame)
 {
@@ -212,23 +268,36 @@ Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Co
         level.texels = encodeBc5(image, scaleOf(to.expansion));
     else if (code == TexelCode::bc7)
         level.texels = encodeBc7(image, scaleOf(to.expansion), lengths);
+    else if (code == TexelCode::bc3)
+        level.texels = encodeBc3(image, scaleOf(to.expansion));
     else if (code == TexelCode::eacRg11)
         level.texels = encodeEacRg11(image, scaleOf11(to.expansion));
-    else if (code.kind == TexelCode::astc) {
-        COTAN_TRY(blocks, encodeAstc(code.width, code.height, scaled(image, scaleOf(to.expansion)), code.two));
+    else if (code == TexelCode::astc) {
+        const AstcChannels channels = code.swizzle == Swizzle::rg ? AstcChannels::all
+            : code.swizzle == Swizzle::greyAlpha                  ? AstcChannels::greyAlpha
+                                                                  : AstcChannels::alphaGreen;
+        COTAN_TRY(blocks, encodeAstc(code.width, code.height, scaled(image, scaleOf(to.expansion)), channels));
         level.texels = *std::move(blocks);
-    } else
+    } else if (code.swizzle != Swizzle::rg) {
+        Image placed = image;
+        swizzle(placed, code.swizzle);
+        level.texels = std::move(placed.data);
+    } else {
         level.texels = image.data;
+    }
     return level;
 }
 
 TextureLevel greyLevel(const Image& image, const TexelCode& code)
 {
-    return {image.width, image.height, code == TexelCode::bc4 ? encodeBc4(image) : encodeEacR11(image)};
+    return {image.width, image.height,
+            code == TexelCode::rgba8     ? image.data
+                : code == TexelCode::bc4 ? encodeBc4(image)
+                                         : encodeEacR11(image)};
 }
 
 Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, const Convention& to,
-                          const std::filesystem::path& file)
+                          const std::filesystem::path& file, const std::string& swizzle)
 {
     std::optional<TexelCode> code = codeNamed(compress);
     if (!code)
@@ -244,7 +313,7 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
         return about("options.bits",
                      usageError(fmt::format("expected 8 or auto, as {} files have 8 bits; found '{}'",
                                             imageFormatOf(file)->endings[0], bits)));
-    const bool mobile = code->kind == TexelCode::eacRg11 || code->kind == TexelCode::astc;
+    const bool mobile = *code == TexelCode::eacRg11 || *code == TexelCode::astc;
     if (mobile && imageFormatOf(file)->name != "KTX2")
         return about("options.compress",
                      usageError(fmt::format("{} is for .ktx2 files; found '{}'", compress, file.extension().string())));
@@ -256,7 +325,18 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
                                             compress)));
     if (compress == "bc7" && to.channels != Channels::xyz)
         return about("options.to", usageError("bc7 holds x, y and z; found two channels, which bc5 is for"));
-    code->two = code->kind == TexelCode::astc && to.channels != Channels::xyz;
+    code->two = to.channels != Channels::xyz || (*code != TexelCode::astc && *code != TexelCode::rgba8);
+    if (compress == "bc7")
+        code->two = false;
+    if (code->two) {
+        COTAN_TRY(placed, swizzleFor(swizzle, *code, compress, file));
+        code->swizzle = *placed;
+    } else if (swizzle != "auto") {
+        return about("options.swizzle",
+                     usageError(fmt::format("expected auto, as the map has three channels (--to with "
+                                            "xy has two); found '{}'",
+                                            swizzle)));
+    }
     if (isTextureFile(file) && to.expansion == Expansion::signedValues)
         return about("options.to",
                      usageError(fmt::format("signed values need a {} of floats",
@@ -267,7 +347,7 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
 Convention codeConvention(const TexelCode& code, const Convention& to)
 {
     Convention taken = storedConvention(code, to);
-    if (code.kind != TexelCode::rgba8)
+    if (code != TexelCode::rgba8)
         taken.expansion = Expansion::biased;
     return taken;
 }
@@ -275,7 +355,7 @@ Convention codeConvention(const TexelCode& code, const Convention& to)
 Convention storedConvention(const TexelCode& code, const Convention& to)
 {
     Convention stored = to;
-    if (code.twoChannels())
+    if (code.twoChannels() && to.channels == Channels::xyz)
         stored.channels = Channels::orthographic;
     return stored;
 }

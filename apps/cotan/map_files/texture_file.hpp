@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cotan/convention.hpp"
+#include "cotan/maps.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
 
@@ -13,21 +14,31 @@ namespace cotan::app {
 
 // How texels are stored: pixels, or blocks.
 struct TexelCode {
-    enum Kind { rgba8, bc5, bc7, bc4, eacRg11, eacR11, astc };
+    enum Kind { rgba8, bc3, bc5, bc7, bc4, eacRg11, eacR11, astc };
     Kind kind = rgba8;
-    int width = 4, height = 4; // texels of a block
-    bool two = false;          // of astc: x and y only, as luminance and alpha
+    int width = 4, height = 4;                 // texels of a block
+    bool two = false;                          // x and y only
+    maps::Swizzle swizzle = maps::Swizzle::rg; // where these are
 
     constexpr TexelCode(Kind k = rgba8) : kind(k) {} // NOLINT(google-explicit-constructor)
     constexpr TexelCode(int w, int h) : kind(astc), width(w), height(h) {}
-    friend bool operator==(const TexelCode&, const TexelCode&) = default;
+    friend bool operator==(const TexelCode& code, Kind kind) { return code.kind == kind; }
 
-    // Blocks without a channel for the roughness, which then has a file of its own.
-    bool twoChannels() const { return kind == bc5 || kind == eacRg11 || two; }
+    // Without a channel for the roughness, which then has a file of its own.
+    bool twoChannels() const
+    {
+        return kind == bc3 || kind == bc5 || kind == eacRg11 || (two && (kind == astc || swizzle != maps::Swizzle::rg));
+    }
 };
 
-// The words of --compress: none, bc5, bc7, eac-rg11, astc-4x4 to astc-8x8.
+// The words of --compress: none, bc3, bc5, bc7, eac-rg11, astc-4x4 to astc-8x8.
 std::vector<std::string> compressionWords();
+
+// The words of --swizzle: auto, rg, ra, ag, rrrg.
+std::vector<std::string> swizzleWords();
+
+// Bits that the code takes for each texel.
+double bitsPerTexel(const TexelCode& code);
 
 struct TextureLevel {
     int width = 0, height = 0;
@@ -42,17 +53,20 @@ bool isTextureFile(const std::filesystem::path& file);
 Status writeTextureFile(const std::filesystem::path& file, const TexelCode& code,
                         const std::vector<TextureLevel>& levels, const std::string& frame = {});
 
+// The same as bytes of KTX2.
+std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& levels, const std::string& frame);
+
 // Normals as a level of a texture that is read as `to`. image: in codeConvention; unorm8 for rgba8, else float32.
 // lengths: for bc7, keeps the lengths of vectors. Errors: ErrorKind::unavailable for ASTC in a build without it.
 Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Convention& to, bool lengths = false);
 
-// Red as a level of one channel: bc4 or eacR11. image: float32.
+// Red as a level of one channel: bc4 or eacR11 of float32, or an image of unorm8 for rgba8.
 TextureLevel greyLevel(const Image& image, const TexelCode& code);
 
-// Parses a word of --compress for a file. Errors (ErrorKind::usage): "options.compress: ", "options.to: " and
-// "options.bits: ".
+// Parses a word of --compress for a file, and where its two channels are. Errors (ErrorKind::usage): "options.compress:
+// ", "options.to: ", "options.bits: " and "options.swizzle: ".
 Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, const Convention& to,
-                          const std::filesystem::path& file);
+                          const std::filesystem::path& file, const std::string& swizzle = "auto");
 
 // The convention in which levelOf expects normals that are read as `to`: blocks need 2c - 1, those of two channels also
 // x and y only.

@@ -1,0 +1,101 @@
+#include "choose.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/try.hpp"
+#include "cotan/image.hpp"
+#include "cotan/maps.hpp"
+#include "inspect/angles.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+struct Candidate {
+    std::string word;
+    TexelCode code;
+    double bits = 0; // of a texel
+};
+
+// The formats of a device that hold the channels of `to`, the smallest first.
+Result<std::vector<Candidate>> candidatesFor(const Convention& to, const std::string& swizzle,
+                                             const std::filesystem::path& file, Device device)
+{
+    const bool two = to.channels != Channels::xyz;
+    std::vector<Candidate> candidates;
+    std::optional<Error> refused;
+    for (const std::string& word : compressionWords()) {
+        const bool desktop = word.starts_with("bc"), mobile = word == "eac-rg11" || word.starts_with("astc");
+        if (word != "none" && !(device == Device::desktop ? desktop : mobile))
+            continue;
+        if (word == "bc7" ? two : !two && (word == "bc3" || word == "bc5" || word == "eac-rg11"))
+            continue;
+        auto code = codeFor(word, "auto", to, file, swizzle);
+        if (code)
+            candidates.push_back({word, *code, bitsPerTexel(*code)});
+        else if (!refused)
+            refused = code.error();
+    }
+    if (refused && candidates.size() < 2)
+        return *refused;
+    std::ranges::stable_sort(candidates, {}, &Candidate::bits);
+    return candidates;
+}
+
+// What a reader finds in the level, compared with the map.
+Result<AngleStatistics> costOf(const Image& map, const Convention& stored, const Candidate& candidate,
+                               const TextureLevel& level, const Convention& to, const LoadLimits& limits)
+{
+    const std::string file = ktx2Bytes(candidate.code, {level}, {});
+    COTAN_TRY(read, decodeImage(std::as_bytes(std::span(file)), "the texture", limits));
+    AngleCounter angles;
+    for (const float degrees : maps::anglesBetween(map, stored, *read, storedConvention(candidate.code, to)))
+        angles.add(degrees);
+    return angles.statistics();
+}
+
+} // namespace
+
+Result<ChosenFormat> chooseFormat(const Image& map, const Image& pixels, const Convention& to,
+                                  const std::string& swizzle, const std::filesystem::path& file,
+                                  const FormatBudget& budget, const FileOptions& files)
+{
+    COTAN_TRY(candidates, candidatesFor(to, swizzle, file, budget.device));
+    Convention stored = to;
+    stored.expansion = Expansion::biased;
+    CountedSteps steps(files.progress, candidates->size());
+    ChosenFormat chosen;
+    std::optional<TriedFormat> best;
+    for (const Candidate& candidate : *candidates) {
+        if (best && candidate.bits > best->bitsPerTexel)
+            break;
+        if (!steps.step())
+            return stoppedError();
+        COTAN_TRY(level, levelOf(candidate.code == TexelCode::rgba8 ? pixels : map, candidate.code, to));
+        COTAN_TRY(cost, costOf(map, stored, candidate, *level, to, files.limits));
+        chosen.tried.push_back({candidate.word, candidate.bits, cost->mean, cost->percentile99});
+        if (cost->mean > budget.limits.mean || cost->percentile99 > budget.limits.percentile99
+            || (best && cost->mean >= best->meanDegrees))
+            continue;
+        best = chosen.tried.back();
+        chosen.compress = candidate.word;
+        chosen.code = candidate.code;
+        chosen.level = *std::move(level);
+    }
+    if (best)
+        return chosen;
+    const auto nearest = std::ranges::min_element(chosen.tried, {}, &TriedFormat::meanDegrees);
+    return about(
+        "options.maxDegrees",
+        Error{ErrorKind::limit,
+              fmt::format("expected a format within {:.3g} degrees on average and {:.3g} on 99 % of the texels; "
+                          "found none: {} has {:.3f} and {:.2f}",
+                          budget.limits.mean, budget.limits.percentile99, nearest->compress, nearest->meanDegrees,
+                          nearest->percentile99)});
+}
+
+} // namespace cotan::app

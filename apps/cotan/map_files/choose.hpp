@@ -1,0 +1,43 @@
+// Chooses the block format of a texture by what it costs in degrees.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cotan/frame_choice.hpp"
+#include "map_file.hpp"
+#include "texture_file.hpp"
+
+namespace cotan::app {
+
+enum class Device { desktop, mobile };
+
+struct FormatBudget {
+    ChoiceLimits limits{};          // of the angles between the map and what is stored
+    Device device = Device::mobile; // desktop: BC5, BC7; mobile: ASTC of all sizes, EAC; both: pixels
+};
+
+// A format that was tried, with the angles that it costs, in degrees.
+struct TriedFormat {
+    std::string compress; // the word of --compress
+    double bitsPerTexel = 0, meanDegrees = 0, percentile99 = 0;
+};
+
+struct ChosenFormat {
+    std::string compress; // the word of --compress
+    TexelCode code;
+    TextureLevel level;
+    std::vector<TriedFormat> tried; // the smallest first
+};
+
+// The smallest format within the budget; of equally small ones that with the least mean angle. Larger formats than the
+// chosen one are not tried.
+// map: float32, the map in codeConvention of blocks; pixels: unorm8, the same in `to`, for a texture without blocks.
+// to: with three channels the formats hold three, with two, two. swizzle: a word of swizzleWords; formats that cannot
+// have it are left out. file: the texture's name, for its container.
+// Errors: ErrorKind::usage as codeFor; ErrorKind::limit if none is within; ErrorKind::stopped.
+Result<ChosenFormat> chooseFormat(const Image& map, const Image& pixels, const Convention& to,
+                                  const std::string& swizzle, const std::filesystem::path& file,
+                                  const FormatBudget& budget, const FileOptions& files);
+
+} // namespace cotan::app

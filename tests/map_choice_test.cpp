@@ -1,0 +1,211 @@
+// Where `cotan map` stores two channels, and how it chooses a format by degrees.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+using nlohmann::json;
+
+json done(std::vector<std::string> words, const TemporaryFolder& folder)
+{
+    words.insert(words.end(), {"--json", "-", "--quiet", "--overwrite"});
+    const ToolRun run = runTool(words, folder.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    return json::parse(run.out, nullptr, false);
+}
+
+std::string refusal(const std::vector<std::string>& words, const TemporaryFolder& folder, int code)
+{
+    const ToolRun run = runTool(words, folder.path());
+    EXPECT_EQ(run.code, code) << run.err;
+    EXPECT_EQ(lines(run.err), 1) << run.err;
+    return run.err;
+}
+
+TemporaryFolder& reliefs()
+{
+    static TemporaryFolder folder;
+    static const bool made = writeImage(folder / "waves.png", makeReliefMap(Relief::waves, 64))
+        && writeImage(folder / "domes.png", makeReliefMap(Relief::domes, 64));
+    EXPECT_TRUE(made);
+    return folder;
+}
+
+// The components of a PNG or TGA of 8 bits are those of the map, moved. The map has 127.5 as zero, as unity has, so
+// that no code changes.
+TEST(MapChoice, swizzlePutsXAndYWhereItsWordSays)
+{
+    const TemporaryFolder& folder = reliefs();
+    for (const char* map : {"waves.png", "domes.png"}) {
+        const auto original = readImage(folder / map);
+        ASSERT_TRUE(original);
+        for (const char* file : {"out.png", "out.tga"})
+            for (const auto& [word, order] : std::map<std::string, std::array<int, 4>>{
+                     // For red, green, blue and alpha: 0 x, 1 y, 2 anything, 3 white.
+                     {"auto", {0, 1, 2, 3}},
+                     {"rg", {0, 1, 2, 3}},
+                     {"ra", {0, 0, 0, 1}},
+                     {"rrrg", {0, 0, 0, 1}},
+                     {"ag", {3, 1, 3, 0}}}) {
+                done({"map", "convert", map, "--from", "gltf", "--to", "gltf,xy", "--swizzle", word, "-o", file},
+                     folder);
+                const auto moved = readImage(folder / file);
+                ASSERT_TRUE(moved && moved->type == PixelType::unorm8) << file;
+                std::size_t wrong = 0;
+                for (std::size_t i = 0; i < moved->pixelCount(); ++i)
+                    for (std::size_t c = 0; c < 4; ++c) {
+                        const int from = order[c], found = moved->bytes8()[4 * i + c];
+                        const int expected = from == 3 ? 255 : original->bytes8()[4 * i + std::size_t(from)];
+                        wrong += from != 2 && std::abs(found - expected) > 1; // z is rebuilt, then normalised: one step
+                    }
+                EXPECT_EQ(wrong, 0u) << map << ' ' << file << ' ' << word;
+            }
+    }
+}
+
+// OpenImageIO reads the DDS, our own reader the KTX2. A BC3 block has six bits and four steps for green and eight bits
+// and eight steps for alpha, where BC5 has the latter for both.
+TEST(MapChoice, bc3HasXInAlphaAndYInGreen)
+{
+    const TemporaryFolder& folder = reliefs();
+    for (const char* map : {"waves.png", "domes.png"}) {
+        const auto cost = [&](const std::string& compress, const std::string& file) {
+            done({"map", "convert", map, "--from", "gltf", "--to", "gltf,xy", "--compress", compress, "-o", file},
+                 folder);
+            return done({"map", "diff", map, file, "--from", "gltf", "--to", "gltf,xy"},
+                        folder)["angles"]["mean_degrees"]
+                .get<double>();
+        };
+        const double two = cost("bc5", "a.dds"), old = cost("bc3", "b.dds");
+        EXPECT_GT(old, two) << map;
+        EXPECT_LT(old, 4 * two) << map; // green alone has less than four times the error of eight steps and eight bits
+        const auto dds = readImage(folder / "b.dds");
+        ASSERT_TRUE(dds);
+        for (std::size_t i = 0; i < dds->pixelCount(); ++i)
+            ASSERT_TRUE(dds->bytes8()[4 * i] == 255 && dds->bytes8()[4 * i + 2] == 255) << i;
+        EXPECT_NEAR(cost("bc3", "b.ktx2"), old, 0.05 * old) << "whose decoder rounds otherwise";
+    }
+}
+
+TEST(MapChoice, aSwizzleThatAFormatCannotHaveIsRefused)
+{
+    const TemporaryFolder& folder = reliefs();
+    const auto said = [&](const char* to, const char* compress, const char* swizzle, const char* file) {
+        return refusal({"map", "convert", "waves.png", "--from", "gltf", "--to", to, "--compress", compress,
+                        "--swizzle", swizzle, "-o", file},
+                       folder, 1);
+    };
+    for (const char* command : {"convert", "mips"}) {
+        const std::string err = refusal({"map", command, "waves.png", "--from", "gltf", "--to", "gltf,xy", "--compress",
+                                         "bc5", "--swizzle", "ag", "-o", "no.dds"},
+                                        folder, 1);
+        EXPECT_NE(err.find("--swizzle: expected one of auto, rg, as bc5 has; found 'ag'"), std::string::npos) << err;
+    }
+    EXPECT_NE(said("gltf,xy", "astc-4x4", "rg", "no.ktx2").find("expected one of auto, ra, ag, rrrg, as astc-4x4 has"),
+              std::string::npos);
+    EXPECT_NE(said("gltf,xy", "none", "ag", "no.jpg").find("expected one of auto, rg, as .jpg has"), std::string::npos);
+    EXPECT_NE(said("gltf", "none", "ag", "no.png").find("the map has three channels"), std::string::npos);
+}
+
+// A level's roughness has a file of its own where alpha holds a direction.
+TEST(MapChoice, mipsWithASwizzleHaveTheirRoughnessBeside)
+{
+    const TemporaryFolder& folder = reliefs();
+    for (const char* file : {"m.dds", "m.ktx2"})
+        for (const char* compress : {"none", "bc3"}) {
+            done({"map", "mips", "domes.png", "--from", "gltf", "--to", "gltf,xy", "--roughness", "0.4", "--swizzle",
+                  "ag", "--compress", compress, "-o", file},
+                 folder);
+            const auto angles =
+                done({"map", "diff", "domes.png", file, "--from", "gltf", "--to", "gltf,xy"}, folder)["angles"];
+            EXPECT_LT(angles["mean_degrees"], 3.0) << file << compress; // exchanged x and y: over 10 degrees
+            const auto roughness = readImage(folder / (std::string("m_roughness") + std::string(file).substr(1)));
+            ASSERT_TRUE(roughness) << file << compress;
+            const int red = roughness->type == PixelType::unorm8 ? roughness->bytes8()[0] : roughness->words()[0] / 257;
+            EXPECT_NEAR(red, 0.4 * 255, 1.01) << "the first level needs no more roughness than the material has";
+        }
+}
+
+// The judge is `map diff` on files that --compress writes.
+TEST(MapChoice, theChosenFormatIsTheSmallestWithinTheLimit)
+{
+    const TemporaryFolder& folder = reliefs();
+    std::map<std::string, int> chosen;
+    for (const char* map : {"waves.png", "domes.png"})
+        for (const auto& [device, to] :
+             {std::pair("mobile", "gltf"), {"mobile", "gltf,xy"}, {"desktop", "gltf"}, {"desktop", "gltf,xy"}})
+            for (const double limit : {2.0, 0.6, 0.3}) {
+                const json report = done({"map", "convert", map, "--from", "gltf", "--to", to, "--max-degrees",
+                                          fmt::format("{}", limit), "--for", device, "-o", "out.ktx2"},
+                                         folder);
+                const std::string where = fmt::format("{} {} {} {}", map, device, to, limit);
+                const std::string word = report["bits"] == "8 bit" ? "none" : report["bits"].get<std::string>();
+                ++chosen[word];
+                ASSERT_FALSE(report["tried"].empty()) << where;
+                double taken = 0, mean = 1e9;
+                for (const json& tried : report["tried"]) {
+                    const std::string compress = tried["compress"];
+                    done(
+                        {"map", "convert", map, "--from", "gltf", "--to", to, "--compress", compress, "-o", "one.ktx2"},
+                        folder);
+                    const json angles =
+                        done({"map", "diff", map, "one.ktx2", "--from", "gltf", "--to", to}, folder)["angles"];
+                    // The tool compares with the map before it is stored; the file has 8 bits: 0.1 degrees or less.
+                    EXPECT_NEAR(tried["mean_degrees"].get<double>(), angles["mean_degrees"].get<double>(), 0.1)
+                        << where << compress;
+                    if (compress == word) {
+                        taken = tried["bits_per_texel"];
+                        mean = tried["mean_degrees"];
+                        EXPECT_LE(mean, limit) << where;
+                        EXPECT_LE(tried["percentile99_degrees"], 10 * limit) << where;
+                    }
+                }
+                for (const json& tried : report["tried"]) {
+                    const bool within = tried["mean_degrees"] <= limit && tried["percentile99_degrees"] <= 10 * limit;
+                    if (tried["compress"] != word) {
+                        EXPECT_TRUE(!within || (tried["bits_per_texel"] == taken && tried["mean_degrees"] >= mean))
+                            << where << tried;
+                    }
+                }
+            }
+    EXPECT_GE(chosen.size(), 4u) << "the limits tell formats apart";
+}
+
+TEST(MapChoice, limitsThatNothingMeetsAndOptionsThatContradictAreRefused)
+{
+    const TemporaryFolder& folder = reliefs();
+    const auto said = [&](const std::vector<std::string>& more, int code) {
+        std::vector<std::string> words{"map", "convert", "waves.png", "--from", "gltf", "--to", "gltf,xy"};
+        words.insert(words.end(), more.begin(), more.end());
+        return refusal(words, folder, code);
+    };
+    EXPECT_NE(said({"--max-degrees", "0.000001", "--for", "mobile", "-o", "no.ktx2"}, 5)
+                  .find("--max-degrees: expected a format within 1e-06 degrees on average"),
+              std::string::npos);
+    EXPECT_NE(said({"--max-degrees", "1", "-o", "no.ktx2"}, 1).find("--max-degrees needs --for"), std::string::npos);
+    EXPECT_NE(said({"--for", "mobile", "-o", "no.ktx2"}, 1).find("--for needs --max-degrees"), std::string::npos);
+    EXPECT_NE(said({"--max-degrees", "1", "--for", "mobile", "-o", "no.png"}, 1).find("expected a .dds or .ktx2 file"),
+              std::string::npos);
+    EXPECT_NE(said({"--max-degrees", "1", "--for", "mobile", "-o", "no.dds"}, 1).find("is for .ktx2 files"),
+              std::string::npos);
+    EXPECT_NE(said({"--max-degrees", "1", "--for", "mobile", "--compress", "bc5", "-o", "no.ktx2"}, 1)
+                  .find("--max-degrees: chooses the format; found bc5 as well"),
+              std::string::npos);
+    EXPECT_NE(said({"--max-degrees", "1", "--for", "console", "-o", "no.ktx2"}, 1).find("--for: expected"),
+              std::string::npos);
+    for (const char* file : {"no.ktx2", "no.png", "no.dds"})
+        EXPECT_FALSE(std::filesystem::exists(folder / file)) << file;
+}
+
+} // namespace
+} // namespace cotan::test
