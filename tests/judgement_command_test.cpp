@@ -248,7 +248,7 @@ const Foreign kForeign[] = {{"EXT_texture_avif", "waves.avif", "AVIF",
                                          "ftypavif and more",
                                          21)},
                             {"KHR_texture_basisu", "waves.ktx2", "KTX2 with BasisU",
-                             makeKtx2({.format = 0, .packing = 1, .levels = {{"some"}}, .colourModel = 163})}};
+                             makeKtx2({.format = 0, .levels = {{"some"}}, .colourModel = 167})}};
 
 void writeForeign(const Foreign& f, const std::filesystem::path& folder)
 {

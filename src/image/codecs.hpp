@@ -74,8 +74,8 @@ std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image& image, 
 
 // ---- KTX2 ----------------------------------------------------------------------------------
 
-// Names the pixel encoding of a KTX2 file that cannot be decoded, for messages: "BasisU (ETC1S)", "BasisU (UASTC)",
-// "ASTC", "ETC2". Empty for all other files.
+// Names the pixel encoding of a KTX2 file that cannot be decoded, for messages: "ASTC", "EAC with signed values". Empty
+// for all other files.
 std::string foreignKtx2(std::span<const std::byte> bytes);
 
 // As decodeImage: the largest level. Blocks (BC1 to BC5, BC7) are passed to readOther as a DDS file.

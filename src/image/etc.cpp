@@ -42,8 +42,6 @@ glm::ivec4 clamped(const glm::ivec3& color) { return {glm::clamp(color, 0, 255),
 // A texel has an index of two bits: the high ones of all texels are bits 16 to 31, the low ones bits 0 to 15.
 int indexOf(std::uint64_t bits, int i) { return field(bits, 16 + i, 1) << 1 | field(bits, i, 1); }
 
-constexpr std::array<std::array<int, 2>, 8> kModifiers{
-    {{2, 8}, {5, 17}, {9, 29}, {13, 42}, {18, 60}, {24, 80}, {33, 106}, {47, 183}}};
 constexpr std::array<int, 8> kDistances{3, 6, 11, 16, 23, 32, 41, 64};
 constexpr glm::ivec4 kTransparent{0, 0, 0, 0};
 
@@ -54,7 +52,7 @@ void decodeHalves(std::uint64_t bits, const std::array<glm::ivec3, 2>& colors, b
     const bool flipped = field(bits, 32, 1) != 0;
     for (int i = 0; i < 16; ++i) {
         const int half = (flipped ? i % 4 : i / 4) / 2, index = indexOf(bits, i);
-        const auto& [small, large] = kModifiers[std::size_t(tables[std::size_t(half)])];
+        const auto& [small, large] = kEtcModifiers[std::size_t(tables[std::size_t(half)])];
         const int size = index % 2 != 0 ? large : opaque ? small : 0;
         texels[std::size_t(placeOf(i))] =
             !opaque && index == 2 ? kTransparent : clamped(colors[std::size_t(half)] + (index / 2 != 0 ? -size : size));

@@ -17,6 +17,10 @@ enum class EtcCode {
     rg11             // 16 bytes
 };
 
+// What a texel adds to or subtracts from the colour of its half: the smaller and the larger, by the number of a table.
+inline constexpr std::array<std::array<int, 2>, 8> kEtcModifiers{
+    {{2, 8}, {5, 17}, {9, 29}, {13, 42}, {18, 60}, {24, 80}, {33, 106}, {47, 183}}};
+
 // Modifiers of a channel: a table by its number, a modifier by a texel's index.
 inline constexpr std::array<std::array<int, 8>, 16> kEacModifiers{{{-3, -6, -9, -15, 2, 5, 8, 14},
                                                                    {-3, -7, -10, -13, 2, 6, 9, 12},

@@ -90,12 +90,7 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
     if (format == "AVIF")
         return unavailableError(fmt::format("{}: AVIF images are not supported", name));
     if (const std::string payload = format == "KTX2" ? foreignKtx2(bytes) : ""; !payload.empty())
-        return unavailableError(
-            fmt::format("{}: {} is not supported{}", name, payload,
-                        payload.starts_with("BasisU")
-                            ? "; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" converts a file, \"gltf-transform "
-                              "ktxdecompress IN.glb OUT.glb\" a model"
-                            : ""));
+        return unavailableError(fmt::format("{}: {} is not supported", name, payload));
     if (format.empty() && !knownImage(bytes, name))
         return inputError(fmt::format("{}: expected an image ({}), found other data", name, readableFormatNames()));
     if (!limits.sandbox.program.empty())

@@ -13,6 +13,7 @@
 #include "core/try.hpp"
 #include "formats.hpp"
 #include "image/astc.hpp"
+#include "image/basis.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
 #include "image/dds.hpp"
@@ -61,6 +62,8 @@ struct Ktx2Image {
     std::string swizzle;               // four of "rgba01"; empty: not stated
     bool bottomUp = false;             // the first row is the bottom one
     std::string frame;                 // Image::frame
+    std::optional<BasisLayout> basis;  // without a VkFormat
+    Etc1sParts etc1s;                  // instead of `stored`
 };
 
 // VkFormat of Vulkan 1.3, linear and sRGB: values are not converted.
@@ -112,6 +115,17 @@ constexpr Ktx2Format kVulkanFormats[] = {{9, 15, 1, 1},
 
 constexpr std::uint64_t kHeader = 80, kLevelEntry = 24;
 
+Result<Ktx2Format> formatOf(std::uint64_t vulkan, const std::optional<BasisLayout>& basis)
+{
+    if (basis)
+        return Ktx2Format{0, 0, basis->channelCount()};
+    const auto* const known = std::ranges::find_if(
+        kVulkanFormats, [&](const Ktx2Format& f) { return f.linear == vulkan || f.srgb == vulkan; });
+    if (known == std::end(kVulkanFormats))
+        return inputError(fmt::format("its format {} (VkFormat) is not supported", vulkan));
+    return *known;
+}
+
 std::uint64_t storedBytes(const Ktx2Format& format, std::uint64_t width, std::uint64_t height)
 {
     const std::uint64_t across = std::uint64_t(format.blocks.width), down = std::uint64_t(format.blocks.height);
@@ -161,10 +175,12 @@ Result<Ktx2Image> checkKtx2(std::span<const std::byte> bytes)
     const std::uint64_t format = file.at(12, 4), width = file.at(20, 4), height = file.at(24, 4),
                         depth = file.at(28, 4), layers = file.at(32, 4), faces = file.at(36, 4),
                         levels = file.at(40, 4);
-    const auto* const known = std::ranges::find_if(
-        kVulkanFormats, [&](const Ktx2Format& f) { return f.linear == format || f.srgb == format; });
-    if (known == std::end(kVulkanFormats))
-        return inputError(fmt::format("its format {} (VkFormat) is not supported", format));
+    std::optional<BasisLayout> basis;
+    if (format == 0) {
+        COTAN_TRY(layout, readBasisLayout(file));
+        basis = *layout;
+    }
+    COTAN_TRY(known, formatOf(format, basis));
     if (width == 0 || height == 0 || depth > 1 || layers > 1 || faces != 1)
         return inputError(fmt::format("expected one flat image, found {} x {} x {}, {} layers, {} faces", width, height,
                                       depth, layers, faces));
@@ -174,10 +190,12 @@ Result<Ktx2Image> checkKtx2(std::span<const std::byte> bytes)
     if (levels > std::uint64_t(std::bit_width(std::max(width, height))))
         return inputError(fmt::format("it has {} levels, {} x {} pixels have {}", levels, width, height,
                                       std::bit_width(std::max(width, height))));
-    Ktx2Image picture{*known, int(width), int(height), std::uint32_t(file.at(44, 4)), {}, 0, {}, false, {}};
-    if (picture.packing == 1 || picture.packing > 3)
+    Ktx2Image picture{*known, int(width), int(height), std::uint32_t(file.at(44, 4)), {}, 0, {}, false, {}, basis, {}};
+    const bool etc1s = basis && basis->etc1s;
+    if ((picture.packing == 1 && !etc1s) || picture.packing > 3)
         return inputError(
             fmt::format("its supercompression {} does not match its format or is unknown", picture.packing));
+    std::vector<std::uint64_t> levelSizes;
     for (std::uint64_t level = 0; level < std::max<std::uint64_t>(levels, 1); ++level) {
         const std::uint64_t entry = kHeader + level * kLevelEntry, offset = file.at(entry, 8),
                             stored = file.at(entry + 8, 8), plain = file.at(entry + 16, 8);
@@ -188,15 +206,22 @@ Result<Ktx2Image> checkKtx2(std::span<const std::byte> bytes)
         if (offset > file.size() || stored > file.size() - offset)
             return inputError(
                 fmt::format("level {} takes {} bytes from {}, the file has {}", level, stored, offset, file.size()));
-        if (plain != expected || (picture.packing == 0 && stored != expected))
+        if (!etc1s && (plain != expected || (picture.packing == 0 && stored != expected)))
             return inputError(fmt::format("level {} has {} bytes, {} as stored; its size requires {}", level, plain,
                                           stored, expected));
         if (level == 0) {
             picture.stored = bytes.subspan(std::size_t(offset), std::size_t(stored));
             picture.bytes = std::size_t(expected);
         }
+        levelSizes.push_back(stored);
     }
     COTAN_CHECK(readKeys(file, bytes, picture));
+    if (basis)
+        COTAN_CHECK(checkBasisSwizzle(*basis, picture.swizzle));
+    if (etc1s) {
+        COTAN_TRY(parts, readEtc1sParts(file, bytes, *basis, levelSizes, picture.stored));
+        picture.etc1s = *parts;
+    }
     return picture;
 }
 
@@ -249,6 +274,13 @@ Image plainPixels(const Ktx2Image& picture, PixelType type, std::span<const std:
     return image;
 }
 
+Error broken(const std::string& name, const Error& error)
+{
+    return reworded(
+        error,
+        fmt::format("{}: {}{}", name, error.kind == ErrorKind::input ? "broken ktx2 image: " : "", error.message));
+}
+
 Result<Image> decodedBlocks(const Ktx2Image& picture, PixelType type, std::span<const std::byte> blocks,
                             const std::string& name, const LoadLimits& limits)
 {
@@ -256,11 +288,13 @@ Result<Image> decodedBlocks(const Ktx2Image& picture, PixelType type, std::span<
     if (format.dds.block != 0)
         return readOther(asDds(picture, blocks), name, limits);
     Image image = makeImage(picture.width, picture.height, type, name);
-    if (format.etc)
+    if (format.etc) {
         decodeEtc(*format.etc, blocks, image);
-    else if (const Status done = decodeAstc(format.width, format.height, blocks, image); !done)
-        return reworded(done.error(), name + ": " + done.error().message);
-    return image;
+        return image;
+    }
+    const Status done = picture.basis ? decodeBasis(*picture.basis, blocks, picture.etc1s, image)
+                                      : decodeAstc(format.width, format.height, blocks, image);
+    return done ? Result<Image>(std::move(image)) : broken(name, done.error());
 }
 
 // Applies swizzle and orientation. A swizzle "rg.." of two channels changes nothing: blue is already set as for
@@ -268,7 +302,7 @@ Result<Image> decodedBlocks(const Ktx2Image& picture, PixelType type, std::span<
 void arrange(const Ktx2Image& picture, Image& image)
 {
     const bool asRead = picture.swizzle.empty() || picture.swizzle == "rgba"
-        || (picture.format.channels == 2 && picture.swizzle.starts_with("rg"));
+        || (picture.format.channels == 2 && (picture.basis || picture.swizzle.starts_with("rg")));
     if (!asRead)
         withComponents(image, [&, pixels = image.pixelCount()]<class T>(T* to, T, T one) {
             for (std::size_t i = 0; i < pixels; ++i, to += 4) {
@@ -299,8 +333,9 @@ std::string foreignKtx2(std::span<const std::byte> bytes)
     const std::uint64_t format = file.at(12, 4);
     if (!file.matches(0, "\xabKTX 20\xbb\r\n\x1a\n") || bytes.size() < kHeader)
         return "";
-    if (format == 0) // colour model in the data format descriptor: 163 is ETC1S, 166 UASTC
-        return file.at(file.at(48, 4) + 12, 1) == 166 ? "BasisU (UASTC)" : "BasisU (ETC1S)";
+    const std::uint64_t model = file.at(file.at(48, 4) + 12, 1); // in the data format descriptor
+    if (format == 0 && model >= 167 && model <= 170)             // those of Basis Universal 2
+        return "BasisU other than ETC1S and UASTC LDR 4x4";
     if (format == 154 || format == 156)
         return "EAC with signed values";
     if (format >= 1000066000 && format <= 1000066013)
@@ -310,14 +345,9 @@ std::string foreignKtx2(std::span<const std::byte> bytes)
 
 Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
-    const auto broken = [&](const Error& error) {
-        return reworded(error,
-                        error.kind == ErrorKind::input ? fmt::format("{}: broken ktx2 image: {}", name, error.message)
-                                                       : fmt::format("{}: {}", name, error.message));
-    };
     const auto picture = checkKtx2(bytes);
     if (!picture)
-        return broken(picture.error());
+        return broken(name, picture.error());
     const Ktx2Format& format = picture->format;
     const PixelType type = format.floats ? PixelType::float32
         : format.bytes == 2              ? PixelType::unorm16
@@ -326,12 +356,12 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
         return *error;
     std::vector<std::byte> unpacked;
     std::span<const std::byte> plain = picture->stored;
-    if (picture->packing != 0) {
+    if (picture->packing > 1) {
         unpacked.resize(picture->bytes); // checkKtx2 and checkImageSize have limited this size
         const Status done =
             picture->packing == 2 ? unpackZstd(picture->stored, unpacked) : unpackZlib(picture->stored, unpacked);
         if (!done)
-            return broken(done.error());
+            return broken(name, done.error());
         plain = unpacked;
     }
     Result<Image> image = format.hasBlocks() ? decodedBlocks(*picture, type, plain, name, limits)

@@ -192,7 +192,7 @@ export function overLimits(report: LintReport, limits?: Limits): OverLimit[];
 export interface UnreadMap {
   image: number;
   name: string;
-  /** For example "KTX2 with BasisU (ETC1S)". */
+  /** For example "AVIF". */
   format: string;
   /** What the user can do. */
   advice: string;

@@ -120,7 +120,7 @@ struct TangentBytes {
 struct UnreadMap {
     std::size_t image = 0; // index into the file's images
     std::string name;
-    std::string format; // for example "KTX2 with BasisU (ETC1S)"
+    std::string format; // for example "AVIF"
     std::string advice; // what to do, one line
 };
 
