@@ -71,7 +71,7 @@ Result<std::optional<FormatBudget>> budgetOf(const MapConvertCommandOptions& o)
                                            : "--for needs --max-degrees: how much a format may cost");
     if (o.device.empty())
         return std::optional<FormatBudget>();
-    COTAN_TRY(device, valueOf<Device>("--for", o.device, {{"desktop", Device::desktop}, {"mobile", Device::mobile}}));
+    COTAN_TRY(device, valueOf<Device>("--for", o.device, {{"desktop", Device::desktop}, {"mobile", Device::mobile}, {"web", Device::web}}));
     return std::optional(FormatBudget{ChoiceLimits::of(o.maxDegrees), *device});
 }
 
@@ -190,9 +190,9 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
         .within(0.0, 180.0)
         .in("D")
         .under(HelpGroup::output);
-    a.option("--for", o.device, "with --max-degrees: desktop (bc5 or bc7) or mobile (astc of all sizes, eac-rg11)")
+    a.option("--for", o.device, "with --max-degrees: desktop (bc5 or bc7), mobile (astc of all sizes, eac-rg11) or web (uastc)")
         .in("NAME")
-        .offers({"desktop", "mobile"})
+        .offers({"desktop", "mobile", "web"})
         .under(HelpGroup::output);
     addDither(a, o.dither);
     a.option("--mesh", o.mesh, "mesh that uses the map; required to or from object space").in("FILE").reads();

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "image/uastc_modes.hpp"
+
 namespace cotan {
 
 namespace {
@@ -41,47 +43,7 @@ private:
     std::uint64_t low_ = 0, high_ = 0;
 };
 
-enum class Patterns { none, two, merged, three }; // "merged": two subsets from three of BC7
-
-struct UastcMode {
-    std::uint8_t code, codeBits;
-    std::uint8_t hintBits; // for transcoders, after the code
-    Patterns patterns;
-    std::uint8_t planes;
-    std::uint8_t channels; // of endpoints: 2 luminance and alpha, 3 RGB, 4 RGBA
-    std::uint8_t levels;   // of a digit of an endpoint: 3 in trits, 5 in quints, 1 without digits
-    std::uint8_t endpointBits;
-    std::uint8_t weightBits;
-};
-
-constexpr int kSolid = 8, kUastcModes = 19;
-
-constexpr std::array<UastcMode, kUastcModes> kModes{{{0x01, 4, 15, Patterns::none, 1, 3, 3, 6, 4},
-                                                     {0x35, 6, 15, Patterns::none, 1, 3, 1, 8, 2},
-                                                     {0x1d, 5, 15, Patterns::two, 1, 3, 1, 4, 3},
-                                                     {0x03, 5, 15, Patterns::three, 1, 3, 3, 2, 2},
-                                                     {0x13, 5, 15, Patterns::two, 1, 3, 5, 3, 2},
-                                                     {0x0b, 5, 15, Patterns::none, 1, 3, 1, 8, 3},
-                                                     {0x1b, 5, 15, Patterns::none, 2, 3, 5, 5, 2},
-                                                     {0x07, 5, 15, Patterns::merged, 1, 3, 5, 3, 2},
-                                                     {0x17, 5, 0, Patterns::none, 0, 0, 0, 0, 0}, // one colour
-                                                     {0x0f, 5, 23, Patterns::two, 1, 4, 1, 4, 2},
-                                                     {0x02, 3, 17, Patterns::none, 1, 4, 3, 4, 4},
-                                                     {0x00, 2, 17, Patterns::none, 2, 4, 3, 4, 2},
-                                                     {0x06, 3, 17, Patterns::none, 1, 4, 3, 6, 3},
-                                                     {0x1f, 5, 23, Patterns::none, 2, 4, 1, 8, 1},
-                                                     {0x0d, 5, 23, Patterns::none, 1, 4, 1, 8, 2},
-                                                     {0x05, 7, 23, Patterns::none, 1, 2, 1, 8, 4},
-                                                     {0x15, 6, 23, Patterns::two, 1, 2, 1, 8, 2},
-                                                     {0x25, 6, 23, Patterns::none, 2, 2, 1, 8, 2},
-                                                     {0x09, 4, 15, Patterns::none, 1, 3, 1, 5, 5}}};
-
-// The subset of texel i: bit i of two subsets, bits 2 i and 2 i + 1 of three. They are those of ASTC's partition
-// function with certain seeds.
-constexpr std::array<std::uint32_t, 30> kTwoSubsets{0xcccc, 0x8888, 0x1111, 0xecc8, 0x377f, 0xfeec, 0x0137, 0x137f,
-                                                    0xc800, 0x0013, 0xfe80, 0x17ff, 0x0017, 0x00ff, 0xfff0, 0x0fff,
-                                                    0xff71, 0x8eff, 0x08ce, 0x008c, 0x7310, 0xceff, 0x7331, 0x088c,
-                                                    0xceef, 0x6666, 0xf00f, 0x5555, 0x0f0f, 0x36c9};
+// The same for subsets of which two are merged, and for three.
 constexpr std::array<std::uint32_t, 19> kMergedSubsets{0x00f0, 0x4444, 0x0133, 0xcc80, 0xf0ff, 0x2222, 0xffc8,
                                                        0xccce, 0x3c03, 0x00ee, 0x7700, 0x3003, 0x00ce, 0xff80,
                                                        0x6fff, 0x1333, 0x11ff, 0x136c, 0x00ef};
@@ -94,21 +56,22 @@ constexpr std::array<std::int8_t, 128> kModeOfBits = [] {
     std::array<std::int8_t, 128> modes{};
     for (int bits = 0; bits < 128; ++bits) {
         modes[std::size_t(bits)] = -1;
-        for (int mode = 0; mode < kUastcModes; ++mode)
-            if ((bits & ((1 << kModes[std::size_t(mode)].codeBits) - 1)) == kModes[std::size_t(mode)].code)
+        for (int mode = 0; mode < int(kUastcModes.size()); ++mode)
+            if ((bits & ((1 << kUastcModes[std::size_t(mode)].codeBits) - 1)) == kUastcModes[std::size_t(mode)].code)
                 modes[std::size_t(bits)] = std::int8_t(mode);
     }
     return modes;
 }();
 
 // The partition of a block. Returns false if its number has none.
-bool takeSubsets(UastcBits& bits, Patterns patterns, std::array<int, 16>& subsets)
+bool takeSubsets(UastcBits& bits, UastcPatterns patterns, std::array<int, 16>& subsets)
 {
     subsets = {};
-    if (patterns == Patterns::none)
+    if (patterns == UastcPatterns::none)
         return true;
-    const bool three = patterns == Patterns::three;
-    const std::span<const std::uint32_t> table = patterns == Patterns::two ? std::span<const std::uint32_t>(kTwoSubsets)
+    const bool three = patterns == UastcPatterns::three;
+    const std::span<const std::uint32_t> table = patterns == UastcPatterns::two
+        ? std::span<const std::uint32_t>(kTwoSubsetsOfUastc)
         : three ? std::span<const std::uint32_t>(kThreeSubsets)
                 : std::span<const std::uint32_t>(kMergedSubsets);
     const auto number = std::size_t(bits.take(three ? 4 : 5));
@@ -117,24 +80,6 @@ bool takeSubsets(UastcBits& bits, Patterns patterns, std::array<int, 16>& subset
     for (int i = 0; i < 16; ++i)
         subsets[std::size_t(i)] = three ? int(table[number] >> 2 * i & 3) : int(table[number] >> i & 1);
     return true;
-}
-
-// An endpoint's value of 8 bits (ASTC, "Color Endpoint Unquantization"): `digit` of 3 or 5 levels and `low` bits.
-int unquantized(int levels, int digit, int bits, int low)
-{
-    if (levels == 1)
-        return bits == 8 ? low : bits == 5 ? low << 3 | low >> 2 : low * 17;
-    const int invert = (low & 1) != 0 ? 0x1ff : 0, rest = low >> 1;
-    int scale = 0, offset = 0;
-    switch (bits) {
-    case 2: scale = 93, offset = rest * 0x116; break;
-    case 3: scale = 26, offset = rest << 7 | rest << 1 | rest >> 1; break;
-    case 4: scale = 22, offset = rest << 6 | rest; break;
-    case 5: scale = 6, offset = rest << 5 | rest >> 3; break;
-    default: scale = 5, offset = rest << 4 | rest >> 4; break;
-    }
-    const int sum = (digit * scale + offset) ^ invert;
-    return (invert & 0x80) | sum >> 2;
 }
 
 // Endpoints by subset, end and channel.
@@ -158,8 +103,8 @@ UastcEndpoints takeEndpoints(UastcBits& bits, const UastcMode& mode, int subsets
         first[3] = second[3] = 255;
         for (std::size_t c = 0; c < mode.channels; ++c)
             for (auto* end : {&first, &second}) {
-                const int value =
-                    unquantized(mode.levels, digits[std::size_t(i++)], mode.endpointBits, bits.take(mode.endpointBits));
+                const int value = uastcEndpoint(mode.levels, digits[std::size_t(i++)], mode.endpointBits,
+                                                bits.take(mode.endpointBits));
                 (*end)[mode.channels == 2 && c == 1 ? 3 : c] = value;
             }
         if (mode.channels == 2) // luminance
@@ -169,24 +114,14 @@ UastcEndpoints takeEndpoints(UastcBits& bits, const UastcMode& mode, int subsets
     return ends;
 }
 
-// A weight of 0 to 64.
-int weightOf(int bits, int value)
-{
-    constexpr std::array<int, 6> kRepeated{0, 63, 21, 9, 0, 0};
-    const int six = bits == 5 ? value << 1 | value >> 4
-        : bits == 4           ? value << 2 | value >> 2
-                              : value * kRepeated[std::size_t(bits)];
-    return six > 32 ? six + 1 : six;
-}
-
 bool decodeUastcBlock(UastcBits bits, UastcTexels& texels)
 {
     const int number = kModeOfBits[std::size_t(bits.peek(7))];
     if (number < 0)
         return false;
-    const UastcMode& mode = kModes[std::size_t(number)];
+    const UastcMode& mode = kUastcModes[std::size_t(number)];
     bits.take(mode.codeBits);
-    if (number == kSolid) {
+    if (number == kSolidUastc) {
         UastcTexel color{};
         for (std::uint8_t& c : color)
             c = std::uint8_t(bits.take(8));
@@ -204,8 +139,8 @@ bool decodeUastcBlock(UastcBits bits, UastcTexels& texels)
     for (std::size_t i = 0; i < 16; ++i) {
         const int bit = 1 << subsets[i], stored = mode.weightBits - ((anchors & bit) == 0 ? 1 : 0);
         anchors |= bit;
-        const int weight = weightOf(mode.weightBits, bits.take(stored));
-        const int ownWeight = own < 0 ? weight : weightOf(mode.weightBits, bits.take(stored));
+        const int weight = uastcWeight(mode.weightBits, bits.take(stored));
+        const int ownWeight = own < 0 ? weight : uastcWeight(mode.weightBits, bits.take(stored));
         const auto& [first, second] = ends[std::size_t(subsets[i])];
         for (std::size_t c = 0; c < 4; ++c) {
             const int w = int(c) == own ? ownWeight : weight;

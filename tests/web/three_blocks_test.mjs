@@ -14,7 +14,7 @@ if (!fs.existsSync(process.env.CHROMIUM ?? '/usr/bin/chromium')) skip('no chromi
 const folder = emptyFolder(), size = 64;
 const { address, close } = await serve({ modules, made: folder });
 const browser = await launch(modules);
-const kTwo = ['bc5', 'eac-rg11'], kThree = ['bc7', 'astc-4x4', 'astc-6x6']; // the formats that three's KTX2Loader knows
+const kTwo = ['bc5', 'eac-rg11'], kThree = ['bc7', 'uastc', 'astc-4x4', 'astc-6x6']; // the formats that three's KTX2Loader knows
 
 // A relief with two waves and noise, so that blocks lose something.
 async function writeMap() {
@@ -41,10 +41,12 @@ function writeBlocks() {
 }
 
 // Returns the normals that three draws with a map on a plane, as seen from above, three floats a pixel.
-async function drawnByThree(page, word) {
-  return page.evaluate(async ([word, size]) => {
+// only: the one kind of blocks that three's transcoder may turn the file into; else the device's own.
+async function drawnByThree(page, word, only) {
+  return page.evaluate(async ([word, size, only]) => {
     const THREE = await import('three'), { KTX2Loader } = await import('/modules/three/examples/jsm/loaders/KTX2Loader.js');
     const renderer = new THREE.WebGLRenderer(), loader = new KTX2Loader().setTranscoderPath('/modules/three/examples/jsm/libs/basis/').detectSupport(renderer);
+    if (only) for (const name of Object.keys(loader.workerConfig)) loader.workerConfig[name] = name === only;
     const map = await loader.loadAsync(`/made/${word}.ktx2`);
     map.minFilter = map.magFilter = THREE.NearestFilter;
     map.needsUpdate = true;
@@ -59,7 +61,7 @@ async function drawnByThree(page, word) {
     renderer.render(scene, camera);
     renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
     return { format: map.format, normals: [...pixels].filter((_, k) => k % 4 < 3) };
-  }, [word, size]);
+  }, [word, size, only]);
 }
 
 function meanAngle(a, b) {
@@ -89,7 +91,15 @@ const cases = {
       assert.ok(Math.abs(angle - errors[word]) < 0.1 + 0.1 * errors[word], `${word}: ${angle} and ${errors[word]}`);
     }
     assert.deepEqual(said, []);
-    assert.equal(formats.size, 6, 'each file is drawn from its own format');
+    assert.equal(formats.size, 6, 'each file is drawn from its own format, and uastc as astc');
+    // Devices without ASTC get other blocks. BC7 holds UASTC nearly as it is; ETC2 and BC3 have less than half of its bits for colour.
+    for (const [only, most] of [['astcSupported', 1.1], ['bptcSupported', 1.3], ['etc2Supported', 8], ['dxtSupported', 6]]) {
+      const { format, normals } = await drawnByThree(page, 'uastc', only), angle = meanAngle(normals, plain.normals);
+      console.log(`uastc with ${only}: ${angle.toFixed(3)} degrees`);
+      formats.add(format);
+      assert.ok(angle < most * errors.uastc, only);
+    }
+    assert.equal(formats.size, 8, 'each kind is another format');
     await page.close();
   },
 };

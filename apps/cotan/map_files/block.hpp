@@ -28,6 +28,10 @@ std::vector<std::byte> encodeBc7(const Image& map, const CodeScale& scale, bool 
 // this is less exact than BC5.
 std::vector<std::byte> encodeBc3(const Image& map, const CodeScale& scale);
 
+// Encodes x, y and z of unit vectors as UASTC: 16 bytes per block. Minimises errors of angles or, with `lengths`, of
+// vectors. map: float32, as for encodeBc7; alpha becomes 1. The bytes do not depend on the number of threads.
+std::vector<std::byte> encodeUastc(const Image& map, const CodeScale& scale, bool lengths = false);
+
 // As encodeBc5, as EAC RG11: the codes of `scale` are those of 11 bits, 0 to 2047.
 std::vector<std::byte> encodeEacRg11(const Image& map, const CodeScale& scale);
 

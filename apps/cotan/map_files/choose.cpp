@@ -29,10 +29,11 @@ Result<std::vector<Candidate>> candidatesFor(const Convention& to, const std::st
     std::vector<Candidate> candidates;
     std::optional<Error> refused;
     for (const std::string& word : compressionWords()) {
-        const bool desktop = word.starts_with("bc"), mobile = word == "eac-rg11" || word.starts_with("astc");
-        if (word != "none" && !(device == Device::desktop ? desktop : mobile))
-            continue;
-        if (word == "bc7" ? two : !two && (word == "bc3" || word == "bc5" || word == "eac-rg11"))
+        const bool three = word == "bc7" || word == "uastc" || (word.starts_with("astc") && !two);
+        const Device family = word.starts_with("bc") ? Device::desktop
+            : word == "uastc"                        ? Device::web
+                                                     : Device::mobile;
+        if (word != "none" && (family != device || (!two && !three)))
             continue;
         auto code = codeFor(word, "auto", to, file, swizzle);
         if (code)

@@ -10,11 +10,11 @@
 
 namespace cotan::app {
 
-enum class Device { desktop, mobile };
+enum class Device { desktop, mobile, web };
 
 struct FormatBudget {
     ChoiceLimits limits{};          // of the angles between the map and what is stored
-    Device device = Device::mobile; // desktop: BC5, BC7; mobile: ASTC of all sizes, EAC; both: pixels
+    Device device = Device::mobile; // desktop: BC5, BC7; mobile: ASTC of all sizes, EAC; web: UASTC; all: pixels
 };
 
 // A format that was tried, with the angles that it costs, in degrees.

@@ -38,7 +38,7 @@ Status writeTextures(const std::filesystem::path& out, const std::vector<MipLeve
                      const MipFileOptions& o)
 {
     std::vector<TextureLevel> normals, roughness;
-    if (!code.twoChannels()) {
+    if (code.holdsRoughness()) {
         for (const MipLevel& level : chain) {
             COTAN_TRY(both, levelWithRoughness(level, code, o));
             normals.push_back(*std::move(both));
@@ -49,7 +49,7 @@ Status writeTextures(const std::filesystem::path& out, const std::vector<MipLeve
     if (o.mayWrite)
         COTAN_CHECK(o.mayWrite(second));
     const TexelCode grey = code == TexelCode::bc5 || code == TexelCode::bc3 ? TexelCode::bc4
-        : code == TexelCode::rgba8                                          ? TexelCode::rgba8
+        : code == TexelCode::rgba8 || code == TexelCode::uastc              ? code.kind
                                                                             : TexelCode::eacR11;
     for (const MipLevel& level : chain) {
         COTAN_TRY(made, levelOf(level.normals, code, *o.to));

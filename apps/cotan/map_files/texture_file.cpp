@@ -44,6 +44,7 @@ CodeFacts factsOf(const TexelCode& code)
     case TexelCode::bc5: return {83, 141, 16, 132, {0, 1}};
     case TexelCode::bc7: return {98, 145, 16, 134, {0}};
     case TexelCode::bc3: return {77, 137, 16, 130, {15, 0}};
+    case TexelCode::uastc: return {0, 0, 16, 166, {0}};
     case TexelCode::bc4: return {80, 139, 8, 131, {0}};
     case TexelCode::eacRg11: return {0, 155, 16, 161, {0, 1}};
     case TexelCode::eacR11: return {0, 153, 8, 161, {0}};
@@ -59,11 +60,9 @@ CodeFacts factsOf(const TexelCode& code)
 
 std::string astcWord(const TexelCode& code) { return fmt::format("astc-{}x{}", code.width, code.height); }
 
-constexpr std::pair<const char*, TexelCode::Kind> kCodes[] = {{"none", TexelCode::rgba8},
-                                                              {"bc3", TexelCode::bc3},
-                                                              {"bc5", TexelCode::bc5},
-                                                              {"bc7", TexelCode::bc7},
-                                                              {"eac-rg11", TexelCode::eacRg11}};
+constexpr std::pair<const char*, TexelCode::Kind> kCodes[] = {
+    {"none", TexelCode::rgba8}, {"bc3", TexelCode::bc3},     {"bc5", TexelCode::bc5},
+    {"bc7", TexelCode::bc7},    {"uastc", TexelCode::uastc}, {"eac-rg11", TexelCode::eacRg11}};
 
 // The words of --swizzle besides auto; rrrg is another name of ra.
 constexpr std::pair<const char*, Swizzle> kSwizzles[] = {
@@ -268,6 +267,8 @@ Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Co
         level.texels = encodeBc5(image, scaleOf(to.expansion));
     else if (code == TexelCode::bc7)
         level.texels = encodeBc7(image, scaleOf(to.expansion), lengths);
+    else if (code == TexelCode::uastc)
+        level.texels = encodeUastc(image, scaleOf(to.expansion), lengths);
     else if (code == TexelCode::bc3)
         level.texels = encodeBc3(image, scaleOf(to.expansion));
     else if (code == TexelCode::eacRg11)
@@ -291,9 +292,10 @@ Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Co
 TextureLevel greyLevel(const Image& image, const TexelCode& code)
 {
     return {image.width, image.height,
-            code == TexelCode::rgba8     ? image.data
-                : code == TexelCode::bc4 ? encodeBc4(image)
-                                         : encodeEacR11(image)};
+            code == TexelCode::rgba8       ? image.data
+                : code == TexelCode::uastc ? encodeUastc(image, scaleOf(Expansion::biased), true)
+                : code == TexelCode::bc4   ? encodeBc4(image)
+                                           : encodeEacR11(image)};
 }
 
 Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, const Convention& to,
@@ -313,20 +315,21 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
         return about("options.bits",
                      usageError(fmt::format("expected 8 or auto, as {} files have 8 bits; found '{}'",
                                             imageFormatOf(file)->endings[0], bits)));
-    const bool mobile = *code == TexelCode::eacRg11 || *code == TexelCode::astc;
+    const bool mobile = *code == TexelCode::eacRg11 || *code == TexelCode::astc || *code == TexelCode::uastc;
     if (mobile && imageFormatOf(file)->name != "KTX2")
         return about("options.compress",
                      usageError(fmt::format("{} is for .ktx2 files; found '{}'", compress, file.extension().string())));
     const bool other = to.channels == Channels::stereographic || to.channels == Channels::slope;
-    if (compress != "none" && compress != "bc7" && other)
+    if (compress != "none" && compress != "bc7" && compress != "uastc" && other)
         return about("options.to",
                      usageError(fmt::format("{} holds x and y of unit vectors; found another form of two "
                                             "channels",
                                             compress)));
-    if (compress == "bc7" && to.channels != Channels::xyz)
-        return about("options.to", usageError("bc7 holds x, y and z; found two channels, which bc5 is for"));
+    if ((compress == "bc7" || compress == "uastc") && to.channels != Channels::xyz)
+        return about("options.to",
+                     usageError(fmt::format("{} holds x, y and z; found two channels, which bc5 is for", compress)));
     code->two = to.channels != Channels::xyz || (*code != TexelCode::astc && *code != TexelCode::rgba8);
-    if (compress == "bc7")
+    if (compress == "bc7" || compress == "uastc")
         code->two = false;
     if (code->two) {
         COTAN_TRY(placed, swizzleFor(swizzle, *code, compress, file));

@@ -14,7 +14,7 @@ namespace cotan::app {
 
 // How texels are stored: pixels, or blocks.
 struct TexelCode {
-    enum Kind { rgba8, bc3, bc5, bc7, bc4, eacRg11, eacR11, astc };
+    enum Kind { rgba8, bc3, bc5, bc7, bc4, eacRg11, eacR11, astc, uastc };
     Kind kind = rgba8;
     int width = 4, height = 4;                 // texels of a block
     bool two = false;                          // x and y only
@@ -24,14 +24,15 @@ struct TexelCode {
     constexpr TexelCode(int w, int h) : kind(astc), width(w), height(h) {}
     friend bool operator==(const TexelCode& code, Kind kind) { return code.kind == kind; }
 
-    // Without a channel for the roughness, which then has a file of its own.
     bool twoChannels() const
     {
         return kind == bc3 || kind == bc5 || kind == eacRg11 || (two && (kind == astc || swizzle != maps::Swizzle::rg));
     }
+    // Whether alpha is free for the roughness, which else has a file of its own.
+    bool holdsRoughness() const { return !twoChannels() && kind != uastc; }
 };
 
-// The words of --compress: none, bc3, bc5, bc7, eac-rg11, astc-4x4 to astc-8x8.
+// The words of --compress: none, bc3, bc5, bc7, uastc, eac-rg11, astc-4x4 to astc-8x8.
 std::vector<std::string> compressionWords();
 
 // The words of --swizzle: auto, rg, ra, ag, rrrg.
@@ -57,10 +58,11 @@ Status writeTextureFile(const std::filesystem::path& file, const TexelCode& code
 std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& levels, const std::string& frame);
 
 // Normals as a level of a texture that is read as `to`. image: in codeConvention; unorm8 for rgba8, else float32.
-// lengths: for bc7, keeps the lengths of vectors. Errors: ErrorKind::unavailable for ASTC in a build without it.
+// lengths: for bc7 and uastc, keeps the lengths of vectors. Errors: ErrorKind::unavailable for ASTC in a build without
+// it.
 Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Convention& to, bool lengths = false);
 
-// Red as a level of one channel: bc4 or eacR11 of float32, or an image of unorm8 for rgba8.
+// Red as a level of one channel: bc4, eacR11 or uastc (grey) of float32, or an image of unorm8 for rgba8.
 TextureLevel greyLevel(const Image& image, const TexelCode& code);
 
 // Parses a word of --compress for a file, and where its two channels are. Errors (ErrorKind::usage): "options.compress:
