@@ -15,6 +15,7 @@
 #include "cotan/render.hpp"
 #include "gltf_open.hpp"
 #include "loading.hpp"
+#include "map_files/model_texture.hpp"
 #include "parse.hpp"
 #include "picture/option_words.hpp"
 #include "picture_options.hpp"
@@ -31,6 +32,7 @@ struct ConvertJob {
     bool fileNamesFrom = false;               // the frame that the file names, if any, replaces maps->frames.from
     std::optional<ProvokingVertex> provoking; // none: vertices stay unchanged
     std::filesystem::path output;
+    std::optional<TexelCode> compress;   // blocks for the normal maps
     std::optional<VerifyOptions> verify; // of `maps`, whose frames it gets
 };
 
@@ -42,6 +44,7 @@ struct ConvertCommandOptions : CommonOptions {
     ConvertModelOptions maps;                // what the options of maps say
     double maxDegrees = ChoiceLimits().mean; // for frames that are chosen
     std::optional<ProvokingVertex> provoking;
+    std::string compress = "none";
     VerifyOptions verify;
 };
 
@@ -70,6 +73,7 @@ Status checkTogether(const ConvertCommandOptions& o, bool chooses, bool vertices
                                         {"--keep-tangents", maps.keepTangents},
                                         {"--bits", maps.bits != unset.bits},
                                         {"--unsigned", maps.expansion != unset.expansion},
+                                        {"--compress", o.compress != "none"},
                                         {"--verify", !o.verify.folder.empty()}})
         if (given && verticesOnly)
             return usageError(
@@ -96,7 +100,13 @@ Result<ConvertJob> jobOf(const ConvertCommandOptions& o)
     if (verifies && std::filesystem::equivalent(o.model, o.output, ignored))
         return usageError(fmt::format("--verify: compares with {}, which -o replaces; expected another -o", o.model));
     const LoadLimits limits = limitsFor(o.verify.memory, chooses ? Pixels::normalMaps : Pixels::none);
-    ConvertJob job{o.model, limits, o.maps, o.from.empty(), o.provoking, o.output, o.verify};
+    ConvertJob job{o.model, limits, o.maps, o.from.empty(), o.provoking, o.output, {}, o.verify};
+    if (o.compress != "none") {
+        const auto code = modelCodeFor(o.compress);
+        if (!code)
+            return withOptionNames(code.error());
+        job.compress = *code;
+    }
     job.maps->frames.from = *from;
     job.maps->frames.to = *to;
     if (chooses)
@@ -116,10 +126,16 @@ Result<ConvertJob> jobOf(const ConvertCommandOptions& o)
 
 // ---- the work -------------------------------------------------------------------------------
 
+struct CompressedMap {
+    StoredMap stored;
+    AngleStatistics cost;
+};
+
 struct ConvertResult {
     FramePair frames;
     ConvertModelReport maps;
     std::vector<GltfProvoked> provoked;
+    std::vector<CompressedMap> compressed;
     GltfWritten written;
 };
 
@@ -130,6 +146,33 @@ std::vector<PlannedOutput> outputsOf(const ConvertJob& job)
         files = plannedIn("--verify", job.verify->folder, imageNames(kConversionNames, kConversionViews));
     files.insert(files.begin(), {"-o", job.output});
     return files;
+}
+
+// Stores the normal maps as blocks. Their notes join those of the conversion.
+Status compress(GltfDocument& document, const ConvertJob& job, const CommonOptions& terminal, ConvertResult& done)
+{
+    Convention convention;
+    convention.expansion = job.maps->expansion;
+    std::vector<AngleStatistics> costs;
+    const auto encode = [&](const Image& map, const std::string&) -> Result<std::vector<std::byte>> {
+        COTAN_TRY(texture, modelTexture(map, *job.compress, convention));
+        costs.push_back(texture->cost);
+        return std::move(texture->bytes);
+    };
+    auto stored = withProgress(terminal, 1, "compressing the maps", [&](Progress progress) {
+        return storeNormalMaps(document, encode, extensionOf(*job.compress), job.limits, progress);
+    });
+    if (!stored)
+        return stored.error();
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+        StoredMap& map = stored->maps[i];
+        const auto named = std::ranges::find(done.maps.maps, map.image, &ConvertedMap::image);
+        if (named != done.maps.maps.end()) // before the conversion, which may have replaced it
+            map.name = named->name;
+        done.compressed.push_back({std::move(map), costs[i]});
+    }
+    done.maps.notes.insert(done.maps.notes.end(), stored->notes.begin(), stored->notes.end());
+    return Done{};
 }
 
 Result<ConvertResult> convert(ConvertJob job, const CommonOptions& terminal)
@@ -154,6 +197,8 @@ Result<ConvertResult> convert(ConvertJob job, const CommonOptions& terminal)
         COTAN_TRY(provoked, setGltfProvoking(opened->document, *job.provoking));
         done.provoked = std::move(*provoked);
     }
+    if (job.compress)
+        COTAN_CHECK(compress(opened->document, job, terminal, done));
     if (job.verify) // fails before anything is written
         COTAN_CHECK(makeFolder(job.verify->folder));
     COTAN_TRY(written, writeGltf(opened->document, job.output));
@@ -174,6 +219,9 @@ std::vector<std::string> linesOf(const ConvertJob& job, const ConvertResult& don
         add(mapLines(map, to));
     if (job.maps)
         add(tangentsLines(done.maps, to));
+    for (const auto& [map, cost] : done.compressed)
+        add({fmt::format("{}: {} bytes in blocks, before {}; mean {:.3f}, 99 % {:.2f} degrees", map.name,
+                         map.bytesAfter, map.bytesBefore, cost.mean, cost.percentile99)});
     if (job.provoking)
         add({provokingLine(done.provoked, *job.provoking)});
     const double before = double(done.written.bytesBefore), after = double(done.written.bytesAfter);
@@ -201,6 +249,13 @@ Json toJson(const ConvertJob& job, const ConvertResult& done)
     }
     if (job.provoking)
         report["provoking"] = provokingJson(done.provoked, *job.provoking);
+    report["compressed"] = Json::array();
+    for (const auto& [map, cost] : done.compressed)
+        report["compressed"].push_back({{"name", map.name},
+                                        {"bytes_before", map.bytesBefore},
+                                        {"bytes_after", map.bytesAfter},
+                                        {"mean_degrees", cost.mean},
+                                        {"percentile99_degrees", cost.percentile99}});
     report["files"] = fileNames(done.written);
     report["bytes_before"] = done.written.bytesBefore;
     report["bytes_after"] = done.written.bytesAfter;
@@ -280,6 +335,12 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .from({8, 16})
         .in("N")
         .withoutDefault();
+    a.option(
+         "--compress", o.compress,
+         "store the normal maps as KTX2 with all their levels: none; uastc (KHR_texture_basisu, for every browser and "
+         "device) or astc-4x4 to astc-8x8 (EXT_texture_astc, for phones)")
+        .in("NAME")
+        .offers(modelCompressionWords());
     a.choice(
         "--unsigned", o.maps.expansion, kExpansions,
         "how the engine decodes the maps: biased (2c - 1, as glTF says and stock engines do) or exact (zero is 128, "

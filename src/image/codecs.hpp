@@ -84,6 +84,9 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
 // Decompresses `packed` to exactly out.size() bytes. Errors: ErrorKind::input for damaged data or another size,
 // ErrorKind::unavailable if this build lacks the library.
 Status unpackZstd(std::span<const std::byte> packed, std::span<std::byte> out);
+
+// Packs with Zstandard. Empty in a build without it.
+std::vector<std::byte> packZstd(std::span<const std::byte> data);
 Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out);
 
 } // namespace cotan

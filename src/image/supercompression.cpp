@@ -1,4 +1,4 @@
-// Decompression of the levels of KTX2 files, by libraries that may be missing (CMakeLists.txt).
+// Compression and decompression of the levels of KTX2 files, by libraries that may be missing (CMakeLists.txt).
 #include <fmt/format.h>
 #ifndef COTAN_WITHOUT_ZLIB
 #include <zlib.h>
@@ -37,6 +37,8 @@ Status unpackZstd(std::span<const std::byte>, std::span<std::byte>)
 {
     return notBuiltWith("libzstd, which unpacks this image", "libzstd-dev");
 }
+
+std::vector<std::byte> packZstd(std::span<const std::byte>) { return {}; }
 #else
 Status unpackZstd(std::span<const std::byte> packed, std::span<std::byte> out)
 {
@@ -46,6 +48,15 @@ Status unpackZstd(std::span<const std::byte> packed, std::span<std::byte> out)
     if (got != out.size())
         return inputError(fmt::format("zstd: expected {} bytes, found {}", out.size(), got));
     return Done{};
+}
+
+std::vector<std::byte> packZstd(std::span<const std::byte> data)
+{
+    constexpr int kLevel = 12; // blocks hardly shrink further
+    std::vector<std::byte> packed(ZSTD_compressBound(data.size()));
+    const std::size_t size = ZSTD_compress(packed.data(), packed.size(), data.data(), data.size(), kLevel);
+    packed.resize(ZSTD_isError(size) != 0 ? 0 : size);
+    return packed;
 }
 #endif
 

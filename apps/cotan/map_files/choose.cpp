@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,9 +31,7 @@ Result<std::vector<Candidate>> candidatesFor(const Convention& to, const std::st
     std::optional<Error> refused;
     for (const std::string& word : compressionWords()) {
         const bool three = word == "bc7" || word == "uastc" || (word.starts_with("astc") && !two);
-        const Device family = word.starts_with("bc") ? Device::desktop
-            : word == "uastc"                        ? Device::web
-                                                     : Device::mobile;
+        const Device family = word.starts_with("bc") ? Device::desktop : word == "uastc" ? Device::web : Device::mobile;
         if (word != "none" && (family != device || (!two && !three)))
             continue;
         auto code = codeFor(word, "auto", to, file, swizzle);
@@ -45,18 +44,6 @@ Result<std::vector<Candidate>> candidatesFor(const Convention& to, const std::st
         return *refused;
     std::ranges::stable_sort(candidates, {}, &Candidate::bits);
     return candidates;
-}
-
-// What a reader finds in the level, compared with the map.
-Result<AngleStatistics> costOf(const Image& map, const Convention& stored, const Candidate& candidate,
-                               const TextureLevel& level, const Convention& to, const LoadLimits& limits)
-{
-    const std::string file = ktx2Bytes(candidate.code, {level}, {});
-    COTAN_TRY(read, decodeImage(std::as_bytes(std::span(file)), "the texture", limits));
-    AngleCounter angles;
-    for (const float degrees : maps::anglesBetween(map, stored, *read, storedConvention(candidate.code, to)))
-        angles.add(degrees);
-    return angles.statistics();
 }
 
 } // namespace
@@ -77,7 +64,8 @@ Result<ChosenFormat> chooseFormat(const Image& map, const Image& pixels, const C
         if (!steps.step())
             return stoppedError();
         COTAN_TRY(level, levelOf(candidate.code == TexelCode::rgba8 ? pixels : map, candidate.code, to));
-        COTAN_TRY(cost, costOf(map, stored, candidate, *level, to, files.limits));
+        const std::string bytes = ktx2Bytes(candidate.code, {*level}, {});
+        COTAN_TRY(cost, costOf(map, stored, std::as_bytes(std::span(bytes)), storedConvention(candidate.code, to)));
         chosen.tried.push_back({candidate.word, candidate.bits, cost->mean, cost->percentile99});
         if (cost->mean > budget.limits.mean || cost->percentile99 > budget.limits.percentile99
             || (best && cost->mean >= best->meanDegrees))

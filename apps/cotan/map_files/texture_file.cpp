@@ -14,9 +14,11 @@
 
 #include "block.hpp"
 #include "core/try.hpp"
+#include "cotan/image.hpp"
 #include "files/output.hpp"
 #include "image/astc.hpp"
 #include "image/checks.hpp"
+#include "image/codecs.hpp"
 #include "image/dds.hpp"
 #include "image/format_table.hpp"
 #include "maps/texels.hpp"
@@ -228,24 +230,33 @@ std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& le
     }
     const std::size_t descriptorAt = 80 + 24 * levels.size(), keysAt = descriptorAt + dataFormat.size();
     std::string data(keysAt + keys.size(), '\0'); // precedes the levels; filled at the end
+    // UASTC is packed as its own encoder does; other blocks are for engines that may not unpack them.
+    std::vector<std::vector<std::byte>> packed;
+    for (std::size_t i = 0; code == TexelCode::uastc && i < levels.size(); ++i)
+        packed.push_back(packZstd(levels[i].texels));
+    const bool packs = !packed.empty() && std::ranges::none_of(packed, &std::vector<std::byte>::empty);
+    const auto stored = [&](std::size_t i) -> const std::vector<std::byte>& {
+        return packs ? packed[i] : levels[i].texels;
+    };
     std::vector<std::size_t> offsets(levels.size());
     for (std::size_t i = levels.size(); i-- > 0;) {
-        data.resize((data.size() + facts.bytes - 1) / facts.bytes * facts.bytes, '\0');
+        if (!packs)
+            data.resize((data.size() + facts.bytes - 1) / facts.bytes * facts.bytes, '\0');
         offsets[i] = data.size();
-        append(data, levels[i].texels);
+        append(data, stored(i));
     }
     std::string head = "\xabKTX 20\xbb\r\n\x1a\n";
     for (const std::uint64_t number :
          {std::uint64_t(facts.vulkan), std::uint64_t(1), std::uint64_t(levels[0].width),
           std::uint64_t(levels[0].height), std::uint64_t(0), std::uint64_t(0), std::uint64_t(1),
-          std::uint64_t(levels.size()), std::uint64_t(0), std::uint64_t(descriptorAt), std::uint64_t(dataFormat.size()),
-          std::uint64_t(keysAt), std::uint64_t(keys.size())})
+          std::uint64_t(levels.size()), std::uint64_t(packs ? 2 : 0), std::uint64_t(descriptorAt),
+          std::uint64_t(dataFormat.size()), std::uint64_t(keysAt), std::uint64_t(keys.size())})
         appendNumber(head, number, 4);
     appendNumber(head, 0, 8);
     appendNumber(head, 0, 8);
     for (std::size_t i = 0; i < levels.size(); ++i) {
         appendNumber(head, offsets[i], 8);
-        appendNumber(head, levels[i].texels.size(), 8);
+        appendNumber(head, stored(i).size(), 8);
         appendNumber(head, levels[i].texels.size(), 8);
     }
     head += dataFormat + keys;
@@ -287,6 +298,16 @@ Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Co
         level.texels = image.data;
     }
     return level;
+}
+
+Result<AngleStatistics> costOf(const Image& map, const Convention& convention, std::span<const std::byte> texture,
+                               const Convention& stored)
+{
+    COTAN_TRY(read, decodeImage(texture, "the texture"));
+    AngleCounter angles;
+    for (const float degrees : maps::anglesBetween(map, convention, *read, stored))
+        angles.add(degrees);
+    return angles.statistics();
 }
 
 TextureLevel greyLevel(const Image& image, const TexelCode& code)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "cotan/maps.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
+#include "inspect/angles.hpp"
 
 namespace cotan::app {
 
@@ -61,6 +63,11 @@ std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& le
 // lengths: for bc7 and uastc, keeps the lengths of vectors. Errors: ErrorKind::unavailable for ASTC in a build without
 // it.
 Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Convention& to, bool lengths = false);
+
+// The angles between a map and what a reader finds in the first level of a KTX2, each read in its own convention.
+// Errors: as decodeImage.
+Result<AngleStatistics> costOf(const Image& map, const Convention& convention, std::span<const std::byte> texture,
+                               const Convention& stored);
 
 // Red as a level of one channel: bc4, eacR11 or uastc (grey) of float32, or an image of unorm8 for rgba8.
 TextureLevel greyLevel(const Image& image, const TexelCode& code);

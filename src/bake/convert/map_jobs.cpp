@@ -66,15 +66,16 @@ void dropOtherForms(Json& root, std::size_t index, std::size_t image, std::vecto
             takeOffExtension(root, name);
 }
 
-// Makes a texture's image WebP, and the document require EXT_texture_webp, without which readers cannot read it.
-void nameWebp(Json& root, std::size_t texture, std::size_t image)
+// Lets an extension name a texture's image, and the document require it: without it, readers cannot read the image.
+void nameSource(Json& root, std::size_t texture, std::size_t image, const std::string& extension)
 {
-    constexpr const char* kName = "EXT_texture_webp";
+    if (extension.empty())
+        return;
     root["textures"][texture].erase("source");
-    root["textures"][texture]["extensions"][kName]["source"] = image;
+    root["textures"][texture]["extensions"][extension]["source"] = image;
     for (const char* list : {"extensionsUsed", "extensionsRequired"})
-        if (std::ranges::find(root[list], kName) == root[list].end())
-            root[list].push_back(kName);
+        if (std::ranges::find(root[list], Json(extension)) == root[list].end())
+            root[list].push_back(extension);
 }
 
 // The factor on the slopes; 0 for a coat whose factor is 0.
@@ -310,15 +311,14 @@ std::size_t bytesOf(const MapJob& job, const FramePair& frames)
 }
 
 void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> bytes, const std::string& mime,
-                std::vector<std::string>& notes)
+                std::vector<std::string>& notes, const std::string& namedBy)
 {
-    const bool webp = mime == "image/webp";
+    const std::string extension = mime == "image/webp" ? "EXT_texture_webp" : namedBy;
     if (!job.alsoElsewhere) {
         replaceGltfImage(document, job.image, std::move(bytes), mime);
         for (const std::size_t t : job.textures) {
             dropOtherForms(rootOf(document), t, job.image, notes);
-            if (webp)
-                nameWebp(rootOf(document), t, job.image);
+            nameSource(rootOf(document), t, job.image, extension);
         }
         return;
     }
@@ -332,8 +332,7 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
         index = copies[texture];
     }
     for (const auto& [old, copy] : copies)
-        if (webp)
-            nameWebp(rootOf(document), copy, image);
+        nameSource(rootOf(document), copy, image, extension);
 }
 
 // ---- tangents ---------------------------------------------------------------------------------

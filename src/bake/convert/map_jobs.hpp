@@ -82,10 +82,10 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
 std::size_t bytesOf(const MapJob& job, const FramePair& frames);
 
 // Replaces a job's image where normal maps read it. mime: "image/png", "image/jpeg", or "image/webp", which
-// EXT_texture_webp then names. Drops other forms of the old image (EXT_texture_webp, KHR_texture_basisu), which readers
-// would prefer; `notes` says so.
+// EXT_texture_webp then names; or "image/ktx2", with the extension that names it in `namedBy`. Drops other forms of the
+// old image (EXT_texture_webp, KHR_texture_basisu), which readers would prefer; `notes` says so.
 void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> bytes, const std::string& mime,
-                std::vector<std::string>& notes);
+                std::vector<std::string>& notes, const std::string& namedBy = {});
 
 // The slots of normal maps in a format that is not read here, named by an extension or, against glTF, by the texture.
 std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document, const LoadLimits& limits = {});

@@ -157,6 +157,29 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
 // Its scene is used in place of another one, and is empty afterwards.
 Result<ConvertModelReport> convertModel(OpenGltf& model, const ConvertModelOptions& options);
 
+// ---- how maps are stored --------------------------------------------------------------------
+
+// A function that makes a KTX2 of a normal map, with all its levels. name: for messages.
+using EncodeTexture = std::function<Result<std::vector<std::byte>>(const Image& map, const std::string& name)>;
+
+struct StoredMap {
+    std::size_t image = 0; // index into the file's images
+    std::string name;
+    std::size_t bytesBefore = 0, bytesAfter = 0;
+};
+
+struct StoredMaps {
+    std::vector<StoredMap> maps;    // in the order of the file's images
+    std::vector<std::string> notes; // maps that stay as they are, one line each
+};
+
+// Stores every normal map that convertModel converts as KTX2, which `extension` names, such as KHR_texture_basisu; the
+// model then requires readers of it. Maps that are KTX2 stay, and with KHR_texture_basisu, whose sides are multiples of
+// four, maps of other sizes. Errors: those of mapJobs, of reading the images and of `encode`; ErrorKind::stopped. On
+// error the document is unchanged.
+Result<StoredMaps> storeNormalMaps(GltfDocument& document, const EncodeTexture& encode, const std::string& extension,
+                                   const LoadLimits& limits = {}, const Progress& progress = {});
+
 // ---- the frame that a file names ------------------------------------------------------------
 
 // The frame named by the materials that have a normal map; none if they name none or no known frame. Errors
