@@ -49,6 +49,7 @@ cotan_web_test(three_relief ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${module
 
 # The blocks of GPU textures that the tool writes, in stock three.js.
 cotan_web_test(three_blocks ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
+cotan_web_test(basisu_models ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 
 # The pages of examples/ as they are shipped.
 cotan_web_test(examples ARGUMENTS ${PROJECT_SOURCE_DIR} ${modules} FIXTURES npm)
