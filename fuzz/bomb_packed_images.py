@@ -128,9 +128,9 @@ def ktx2_runs(r):
         tables.table(symbols)
     tables.put(1, 13)
     slice_.code(sources, 19), slice_.code([0], 0), slice_.code(codes, 0)
-    slice_.code(codes, 2), slice_.put(0, 1), slice_.groups(4 * across * down, 7)
-    slice_.code(sources, 0), slice_.code(sources, 256), slice_.groups(across - 5, 4)  # 3 more than that
-    slice_.code(sources, 85), slice_.code(sources, 256), slice_.groups(across * down, 4)
+    slice_.code(codes, 2), slice_.put(0, 1), slice_.groups(-(-width // 4) * -(-height // 4) - 4, 7)  # 3 more than that
+    slice_.code(sources, 0), slice_.code(sources, 256), slice_.groups(across - 5, 4)
+    slice_.code(sources, 85), slice_.code(sources, 256), slice_.groups(across * (down - 1) - 4, 4)
     parts = [part.bytes() for part in (endpoints, selectors, tables)]
     data = slice_.bytes()
     shared = struct.pack("<2H4I", 1, 1, *map(len, parts), 0) + struct.pack("<5I", 0, 0, len(data), 0, 0) + b"".join(parts)
