@@ -80,6 +80,68 @@ def ktx2(r):
     return head + described + data
 
 
+class _Bits:
+    """A stream of bits, the lowest of each byte first."""
+
+    def __init__(self):
+        self.bits, self.count = 0, 0
+
+    def put(self, value, size):
+        self.bits |= value << self.count
+        self.count += size
+
+    def table(self, symbols):
+        """A Huffman table of BasisLZ in which one symbol, or a power of two of them, has codes of equal length."""
+        length = max(1, (len(symbols) - 1).bit_length())
+        self.put(symbols[-1] + 1, 14), self.put(21, 5)
+        for entry in (17, 18, 19, 20, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15, 16):
+            self.put(int(entry == length or (entry == 0 and len(symbols) <= symbols[-1])), 3)
+        for symbol in range(symbols[-1] + 1):
+            self.put(int(symbol in symbols and len(symbols) <= symbols[-1]), 1)
+
+    def code(self, symbols, symbol):
+        for k in reversed(range(max(1, (len(symbols) - 1).bit_length()))):
+            self.put(symbols.index(symbol) >> k & 1, 1)
+
+    def groups(self, value, size):
+        while True:
+            self.put(value & ((1 << size) - 1) | (value >> size > 0) << size, size + 1)
+            value >>= size
+            if value == 0:
+                return
+
+    def bytes(self):
+        return self.bits.to_bytes(-(-self.count // 8), "little")
+
+
+def ktx2_runs(r):
+    """ETC1S in KTX2: one block from the stream, and runs for all others."""
+    width, height = r.choice([(4096, 4096), (12_000, 12_000), (16_384, 8192), (16_384, 300)])
+    across, down = -(-width // 8), -(-height // 8)  # groups of 2 x 2 blocks
+    endpoints, selectors, tables, slice_ = _Bits(), _Bits(), _Bits(), _Bits()
+    for _ in range(4):
+        endpoints.table([0])
+    endpoints.put(0, 1), endpoints.put(0, 4)  # colour and intensity of one endpoint
+    selectors.put(4, 3), selectors.put(0xe4e4e4e4, 32)
+    sources, codes = [0, 19, 85, 256], [0, 2]  # left; from the stream, left, above, left; above; a run
+    for symbols in (sources, [0], codes, [63]):
+        tables.table(symbols)
+    tables.put(1, 13)
+    slice_.code(sources, 19), slice_.code([0], 0), slice_.code(codes, 0)
+    slice_.code(codes, 2), slice_.put(0, 1), slice_.groups(-(-width // 4) * -(-height // 4) - 4, 7)  # 3 more than that
+    slice_.code(sources, 0), slice_.code(sources, 256), slice_.groups(across - 5, 4)
+    slice_.code(sources, 85), slice_.code(sources, 256), slice_.groups(across * (down - 1) - 4, 4)
+    parts = [part.bytes() for part in (endpoints, selectors, tables)]
+    data = slice_.bytes()
+    shared = struct.pack("<2H4I", 1, 1, *map(len, parts), 0) + struct.pack("<5I", 0, 0, len(data), 0, 0) + b"".join(parts)
+    block = struct.pack("<HHHHBBBB4B8B", 0, 0, 2, 40, 163, 1, 1, 0, 3, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0) + struct.pack("<HBBIII", 0, 63, 0, 0, 0, 0xffffffff)
+    described = struct.pack("<I", 4 + len(block)) + block
+    at = 12 + 36 + 32 + 24
+    head = b"\xabKTX 20\xbb\r\n\x1a\n" + struct.pack("<9I", 0, 1, width, height, 0, 0, 1, 1, 1)
+    head += struct.pack("<4I2Q", at, len(described), 0, 0, at + len(described), len(shared))
+    return head + struct.pack("<3Q", at + len(described) + len(shared), len(data), 0) + described + shared + data
+
+
 def webp_of(width, height):
     """Lossless WebP of one colour: no bits per pixel."""
     bits, count = 0, 0
@@ -321,6 +383,7 @@ def tiff_packbits(r):
 MAKERS = {
     "exr": (exr, "exr"), "exr_channels": (exr_channels, "exr"), "exr_tiles": (exr_tiles, "exr"), "hdr": (hdr, "hdr"),
     "hdr_runs": (hdr_runs, "hdr"), "dds": (dds, "dds"), "dds_blocks": (dds_blocks, "dds"), "ktx2": (ktx2, "ktx2"),
+    "ktx2_runs": (ktx2_runs, "ktx2"),
     "ktx2_blocks": (ktx2_blocks, "ktx2"), "webp": (webp_lossless, "webp"), "webp_frames": (webp_frames, "webp"), "gif": (gif, "gif"),
     "gif_packed": (gif_packed, "gif"), "bmp": (bmp, "bmp"), "tga": (tga, "tga"), "tiff": (tiff, "tif"),
     "tiff_packbits": (tiff_packbits, "tif"),

@@ -395,10 +395,22 @@ TEST(Etc1s, damageAndContradictionsAreRefused)
     refused({.colorAt = 100}, "slice 0 of level 0 takes");
     refused({.channelTypes = {0, 4}}, "channel type 0 and 4; expected 0, 0 and 15, 3, or 3 and 4");
     refused({.channelTypes = {15}}, "channel type 15");
+    // A run has at least three groups of 2 x 2 blocks; here it starts at the second of two.
+    BitWriter tables, run;
+    const EqualCodes sources{{3 | 0 << 2 | 1 << 4 | 2 << 6, 256}};
+    for (const EqualCodes* codes : {&sources, &kDeltas, &kSelectorCodes, &kRuns})
+        codes->putTable(tables);
+    tables.put(3, 13);
+    sources.put(run, sources.symbols[0]), kDeltas.put(run, 1), kSelectorCodes.put(run, 0), kSelectorCodes.put(run, 0);
+    sources.put(run, 256), run.put(0, 5), kDeltas.put(run, 1), kSelectorCodes.put(run, 0);
+    for (int block = 0; block < 3; ++block)
+        kSelectorCodes.put(run, 0);
+    refused({.tables = tables.bytes(), .color = run.bytes()},
+            "a run of the first slice has more than its 3 x 2 blocks");
     // The first block of a slice has nothing to its left; the first group says so of it.
     BitWriter left;
-    const EqualCodes sources{{0, 3}};
-    for (const EqualCodes* codes : {&sources, &kDeltas, &kSelectorCodes, &kRuns})
+    const EqualCodes groups{{0, 3}};
+    for (const EqualCodes* codes : {&groups, &kDeltas, &kSelectorCodes, &kRuns})
         codes->putTable(left);
     left.put(3, 13);
     refused({.tables = left.bytes(), .color = std::string(8, '\0')}, "block 0, 0 of the first slice");

@@ -44,7 +44,7 @@ export function modelAmong(files) {
 }
 
 // The image to show if there is no model: by its name, else the first file; undefined if there is none.
-export const mapAmong = files => files.find(({ name }) => /\.(png|jpe?g|webp|bmp|gif|avif)$/i.test(name)) ?? files[0];
+export const mapAmong = files => files.find(({ name }) => /\.(png|jpe?g|webp|bmp|gif|avif|ktx2)$/i.test(name)) ?? files[0];
 
 // The bytes of a file that a model references by URI; undefined if missing.
 export function besideModel({ model, beside }, uri) {

@@ -68,12 +68,11 @@ export const { tangents, smooth, triangles, split, splitMirrored, packTriangles,
 export const provoking = provokingFunction(library);
 export const { detect, info, convertMap, blend, fromHeight, toHeight, mips } = mapFunctions(library, host);
 export const { apply, encode, frames, shader } = frameFunctions(library);
-export const { lint, convert } = modelFunctions(library, host, (map) => convertMap(map, { from: 'directx', to: 'opengl' }));
+export const { lint, convert, decodeImage } = modelFunctions(library, host, (map) => convertMap(map, { from: 'directx', to: 'opengl' }));
 export const version = () => library.version;
 export { overLimits } from './src/verdict.js';
 export { decodePng, encodePng } from './src/png.js';
-export { decodeImage } from './src/image_files.js';
-export { decodePicture } from './src/old_names.js';
+export { decodeImage as decodePicture };
 export { CotanError };
 `,
 };

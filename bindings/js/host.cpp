@@ -1,6 +1,10 @@
 // Callbacks of the library that JavaScript implements: files, images, mip levels, progress. The functions of the module
 // `cotan` are in src/host.js.
-#include "cotan.h"
+#include <cstdlib>
+
+#include "c/call.hpp"
+#include "c/image_views.hpp"
+#include "cotan/image.hpp"
 
 #define COTAN_FROM_HOST(name) __attribute__((import_module("cotan"), import_name(name)))
 
@@ -26,5 +30,20 @@ void* cotan_js_function(int number)
     case 5: return reinterpret_cast<void*>(&hostTakeFile);
     default: return nullptr;
     }
+}
+
+// Decodes a KTX2 file, which no browser does. The caller frees the pixels.
+cotan_status cotan_js_ktx2(const char* name, const void* bytes, size_t byteCount, cotan_image_view* view, char* message,
+                           size_t messageSize)
+{
+    return cotan::c::call(message, messageSize, [&] {
+        const auto image =
+            cotan::c::valueOf(cotan::decodeImage({static_cast<const std::byte*>(bytes), byteCount}, name, {}));
+        *view = cotan::c::imageViewOf(image);
+        view->pixels = std::malloc(image.data.size());
+        if (!view->pixels)
+            cotan::c::fail(cotan::ErrorKind::unavailable, name, ": not enough memory for the image");
+        cotan::c::put(image, *view);
+    });
 }
 }

@@ -139,6 +139,9 @@ public:
         return !bits_.failed() && !wrong_ && endpoint < codes_.endpoints.size() && selector < codes_.selectors.size();
     }
 
+    // Whether a run of sources is longer than the slice.
+    bool runsOn() const { return sourceRun_ > 0; }
+
 private:
     // Two bits for each of 2 x 2 blocks say where their endpoint comes from: left, above, above left, or the stream.
     std::uint32_t takeSources()
@@ -250,6 +253,9 @@ Status decodeSlice(const Codes& codes, std::span<const std::byte> bytes, bool se
                     }
                 }
         }
+    if (slice.runsOn())
+        return inputError(fmt::format("ETC1S: a run of the {} slice has more than its {} x {} blocks",
+                                      second ? "second" : "first", across, down));
     return Done{};
 }
 

@@ -30,8 +30,10 @@ bool isPng(std::span<const std::byte> bytes) { return imageFormatName(bytes) == 
 std::string unreadableFormat(std::span<const std::byte> bytes, const LoadLimits& limits)
 {
     const std::string format = imageFormatName(bytes);
-    if (format == "KTX2" && !foreignKtx2(bytes).empty())
-        return "KTX2 with " + foreignKtx2(bytes);
+    if (format == "KTX2") {
+        const std::string foreign = foreignKtx2(bytes), what = foreign.empty() ? lackedByKtx2(bytes) : foreign;
+        return what.empty() ? "" : "KTX2 with " + what;
+    }
     const bool foreign = !limits.decode
         && (format == "AVIF" || (format == "WebP" && !readsWebp()) || (format == "DDS" && !readsOtherFormats()));
     return foreign ? format : "";
@@ -124,7 +126,7 @@ Result<EncodedLike> asPng(const Image& image, std::string reason)
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 try {
-    if (limits.decode)
+    if (limits.decode && imageFormatName(bytes) != "KTX2")
         return limits.decode(bytes, name);
     LoadLimits own = limits;
     own.imageBytes = std::min(limits.imageBytes, imageBudget(limits, bytes.size()));

@@ -343,6 +343,16 @@ std::string foreignKtx2(std::span<const std::byte> bytes)
     return format >= 157 && format <= 184 && !readsAstc() ? "ASTC" : "";
 }
 
+std::string lackedByKtx2(std::span<const std::byte> bytes)
+{
+    Numbers file(bytes);
+    const std::uint64_t packing = file.at(44, 4);
+    if ((packing == 2 && !unpacksZstd()) || (packing == 3 && !unpacksZlib()))
+        return packing == 2 ? "Zstandard" : "zlib";
+    const auto format = formatOf(file.at(12, 4), {});
+    return format && format->blocks.dds.block != 0 && !readsOtherFormats() ? "BC blocks" : "";
+}
+
 Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     const auto picture = checkKtx2(bytes);

@@ -13,11 +13,13 @@
 namespace cotan {
 
 #ifdef COTAN_WITHOUT_ZLIB
+bool unpacksZlib() { return false; }
 Status unpackZlib(std::span<const std::byte>, std::span<std::byte>)
 {
     return notBuiltWith("zlib, which unpacks this image", "zlib1g-dev");
 }
 #else
+bool unpacksZlib() { return true; }
 Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out)
 {
     uLongf got = uLongf(out.size());
@@ -33,6 +35,7 @@ Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out)
 #endif
 
 #ifdef COTAN_WITHOUT_ZSTD
+bool unpacksZstd() { return false; }
 Status unpackZstd(std::span<const std::byte>, std::span<std::byte>)
 {
     return notBuiltWith("libzstd, which unpacks this image", "libzstd-dev");
@@ -40,6 +43,7 @@ Status unpackZstd(std::span<const std::byte>, std::span<std::byte>)
 
 std::vector<std::byte> packZstd(std::span<const std::byte>) { return {}; }
 #else
+bool unpacksZstd() { return true; }
 Status unpackZstd(std::span<const std::byte> packed, std::span<std::byte> out)
 {
     const std::size_t got = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());

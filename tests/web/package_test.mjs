@@ -6,6 +6,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 
+import { basisFolder, texelsOf, transcoder } from './basis_transcoder.mjs';
 import { data, missing } from './data.mjs';
 import { emptyFolder, filesUnder, here, hills, imageOf, installed, load, parseGlb, runCases, skip } from './shared.mjs';
 
@@ -393,6 +394,37 @@ const cases = {
     assert.deepEqual(cotan.overLimits(report({ rotated: 0, turned: 0.5 }), { limitArea: 1 }), []);
   },
 
+  async basisUniversalIsReadAsByItsTranscoder() {
+    if (!fs.existsSync(basisFolder(modules))) skip('three is not installed (see the test npm_packages)');
+    const made = await transcoder(modules), file = (name) => fs.readFileSync(path.join(here, `../../fuzz/corpus/image/${name}.ktx2`));
+    for (const name of ['uastc_map', 'etc1s', 'etc1s_alpha']) {
+      const wanted = texelsOf(made, file(name)), found = await cotan.decodeImage(file(name), name);
+      assert.deepEqual([found.width, found.height, found.bits], [wanted.width, wanted.height, 8], name);
+      assert.ok(Buffer.from(found.data).equals(Buffer.from(wanted.data)), name);
+    }
+    await assert.rejects(cotan.decodeImage(file('uastc_reserved'), 'a.ktx2'), { code: 'input', message: /^a\.ktx2: broken ktx2 image: UASTC: block 0, 0 / });
+    await assert.rejects(cotan.decodeImage(file('uastc_zstd'), 'a.ktx2'), { code: 'unavailable', message: /^a\.ktx2: KTX2 with Zstandard/ });
+    // In a model: a quad with the map, read by lint and by convert.
+    const floats = Float32Array.of(0, 0, 0, 2, 0, 0, 0, 1, 0, 2, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 1, 1, 0, 0, 1, 0);
+    const bytes = Buffer.concat([Buffer.from(floats.buffer), Buffer.from(Uint32Array.of(0, 1, 2, 2, 1, 3).buffer)]);
+    const view = (at, count, type, parts) => ({ view: { buffer: 0, byteOffset: at, byteLength: 4 * count * parts }, accessor: { componentType: type === 'SCALAR' ? 5125 : 5126, count, type } });
+    const parts = [view(0, 4, 'VEC3', 3), view(48, 4, 'VEC3', 3), view(96, 4, 'VEC2', 2), view(128, 6, 'SCALAR', 1)];
+    Object.assign(parts[0].accessor, { min: [0, 0, 0], max: [2, 1, 0] });
+    const model = (name) => Buffer.from(JSON.stringify({
+      asset: { version: '2.0' }, extensionsUsed: ['KHR_texture_basisu'], extensionsRequired: ['KHR_texture_basisu'],
+      buffers: [{ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${bytes.toString('base64')}` }],
+      bufferViews: parts.map((part) => part.view), accessors: parts.map((part, bufferView) => ({ bufferView, ...part.accessor })),
+      images: [{ uri: `data:image/ktx2;base64,${file(name).toString('base64')}` }], textures: [{ extensions: { KHR_texture_basisu: { source: 0 } } }],
+      materials: [{ normalTexture: { index: 0 } }],
+      meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3, material: 0 }] }], nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }], scene: 0,
+    }));
+    const { report } = await cotan.convert(model('etc1s'), { mode: 'convert', to: 'cotangent' });
+    assert.deepEqual(report.unread_maps, []);
+    assert.equal(report.maps[0].format, 'PNG');
+    assert.ok(!(await cotan.lint(model('etc1s'))).primitives[0].not_judged);
+    assert.match((await cotan.lint(model('uastc_zstd'))).primitives[0].not_judged, /KTX2 with Zstandard/);
+  },
+
   async packageIsSmall() {
     const place = path.join(folder, 'node_modules/cotan');
     const packed = (...names) => gzipSync(Buffer.concat(names.map((name) => fs.readFileSync(path.join(place, name)))), { level: 9 }).length;
@@ -413,7 +445,8 @@ const cases = {
     // cannot print, went: 12 KB. 450,000: each variant of a file is judged, 5 KB, and old names of fields, 1 KB.
     // 34,700 and 451,500: tangents with the weights of meshoptimizer, 0.7 KB; hard edges that lint names, what other engines
     // read as zero, and the materials of models with several maps, 3 KB. 454,500: ETC2 and EAC in KTX2, 3 KB.
-    for (const [name, most] of [['tangents', 34700], ['cotan', 454500]]) {
+    // 463,000: Basis Universal, and KTX2 that decodeImage reads, 8 KB.
+    for (const [name, most] of [['tangents', 34700], ['cotan', 463000]]) {
       const beside = packed(...reached(`${name}_beside.js`), `wasm/${name}.wasm`), inside = packed(...reached(`${name}.js`));
       console.log(`${name}: ${beside} bytes gzipped, ${inside} with the wasm inside`);
       assert.ok(beside <= most, `${name}: ${beside} bytes gzipped`);

@@ -19,6 +19,9 @@ function optionalPackage(name) {
 
 const kMaxPixels = 2 ** 26;
 
+/** Whether bytes are a KTX2 file, which the library decodes and browsers do not. */
+export const isKtx2 = (bytes) => wordAt(bytes, 1) === 'KTX ' && wordAt(bytes, 5) === '20\u00bb\r';
+
 /** The texels of an image that the browser decoded, as they are in its file. */
 function texelsOf(bitmap, name) {
   const { width, height } = bitmap;
@@ -45,7 +48,7 @@ function texelsByWebGl(bitmap, name) {
   return isFine ? data : fail();
 }
 
-/** Decodes to { width, height, bits, data } with four components per pixel; the default of options.decode. */
+/** Decodes to { width, height, bits, data } with four components per pixel: all formats but KTX2. */
 export async function decodeImage(file, name = 'image') {
   const bytes = bytesOf(file, 'bytes');
   if (typeof name !== 'string') throw usage(`name: expected a string, found ${wordsFor(name)}`);

@@ -4,7 +4,7 @@ import { CotanError, usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
 import { bytesOf, checkedImage } from './image_checks.js';
 import { encodedByCaller, encodedLike } from './encoded.js';
-import { decodeImage } from './image_files.js';
+import { decodeImage as decodeOther, isKtx2 } from './image_files.js';
 import { encodePng } from './png.js';
 import { decodedUri, imageIn, parsedModel, requiresWebp, sizeOf, withImages } from './glb.js';
 import { grownBy, inOriginalFormats, keptMaps, kGrowth, modeOf, tooLarge } from './modes.js';
@@ -14,7 +14,7 @@ const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[
 const kMapsRead = 1, kMapsUnread = 2; // keep_maps of cotan.h
 // Placeholder for images that are not normal maps, whose pixels are never read.
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
-const kCommon = { files: {}, decode: decodeImage, progress: undefined };
+const kCommon = { files: {}, decode: decodeOther, progress: undefined };
 const kConvert = {
   ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', fixGreen: false, maxDegrees: undefined,
 };
@@ -58,13 +58,33 @@ export function modelFunctions(library, host, flipGreen) {
     }
   });
 
-  /** The normal maps of a model, decoded by options.decode. A failure is thrown only when the library needs the map. */
+  const decodeKtx2 = (bytes, name) => library.run((s) => {
+    const image = s.struct(0, 0, 0, 0);
+    s.call('cotan_js_ktx2', s.put(new TextEncoder().encode(`${name}\0`)), s.put(bytes), bytes.length, image);
+    const [, width, height, bits, pixels] = s.view(Uint32Array, image, 5), Type = { 8: Uint8Array, 16: Uint16Array, 32: Float32Array }[bits];
+    try {
+      return { width, height, bits, data: s.take(Type, pixels, 4 * width * height) };
+    } finally {
+      s.wasm.free(pixels);
+    }
+  });
+  const decodeBy = (decode, bytes, name) => {
+    try {
+      return isKtx2(bytes) ? decodeKtx2(bytes, name) : decode(bytes, name);
+    } catch (error) {
+      throw /not built with/.test(error.message) ? new CotanError('unavailable', `${name}: KTX2 with Zstandard, BC or ASTC is read by the command line, not here`) : error;
+    }
+  };
+  const decodeImage = async (bytes, name = 'image') => decodeBy(decodeOther, bytesOf(bytes, 'bytes'), name);
+
+  /** The normal maps of a model, decoded by options.decode; the library decodes KTX2 itself. A failure is thrown only when
+   * the library needs the map. */
   async function decoded(model, o) {
     const known = [];
     const takeFile = (name, bytes) => { known.push({ name, bytes }); };
     withModel(model, o.files, known, { takeFile }, (s, at, files) =>
       s.call('cotan_gltf_images', at, model.length, files, 1, s.wasm.cotan_js_function(kFunction.takeFile), 0));
-    for (const image of known) {
+    for (const image of known.filter(({ bytes }) => !isKtx2(bytes))) {
       try {
         image.image = checkedImage(await o.decode(image.bytes, image.name), 'options.decode', [8, 16]);
       } catch (error) {
@@ -129,7 +149,7 @@ export function modelFunctions(library, host, flipGreen) {
     if (wrong.length === 0) return convert(model, more);
     const { glb: whole } = await withMapsKept(model, parsed, o, kMapsUnread, { keepTangents: true }), inside = parsedModel(whole), flipped = new Map(), notes = [];
     for (const { image, name } of wrong) {
-      const file = imageIn(inside, image), pixels = checkedImage(await o.decode(file, name), 'options.decode', [8, 16]);
+      const file = imageIn(inside, image), pixels = checkedImage(await decodeBy(o.decode, file, name), 'options.decode', [8, 16]);
       const right = flipGreen(pixels), found = await encodedLike(right, file, await encodedByCaller(right, o.encode), name, { hasWebp: requiresWebp(inside.json) });
       flipped.set(image, found);
       if (found.note) notes.push(found.note);
@@ -186,5 +206,5 @@ export function modelFunctions(library, host, flipGreen) {
     }
   }
 
-  return { lint, convert };
+  return { lint, convert, decodeImage };
 }

@@ -106,7 +106,7 @@ type Bytes = ArrayBuffer | ArrayBufferView;
 export interface ModelOptions {
   /** External files of a .gltf by URI: as the model writes it, or percent-decoded. */
   files?: Record<string, Bytes>;
-  /** Decodes the normal maps, of any format but KTX2. Default: decodeImage. */
+  /** Decodes the normal maps, of any format but KTX2, which the library decodes. Default: decodeImage. */
   decode?: (bytes: Uint8Array, name: string) => Promise<Image & { bits: number }>;
   /** Called with the fraction done, 0 to 1. Returning false stops the work (code "stopped"). */
   progress?: (done: number) => boolean | void;
@@ -285,6 +285,6 @@ export function convert(model: Bytes, options?: ModelOptions & {
 /** Lossless PNG files of 8 or 16 bits. */
 export function decodePng(bytes: Uint8Array): Promise<Image & { bits: 8 | 16 }>;
 export function encodePng(image: Image & { bits: number }): Promise<Uint8Array>;
-/** Decodes PNG; other formats by the browser, or by the package sharp in node. The values are those of the file: no
+/** Decodes PNG and KTX2; other formats by the browser, or by the package sharp in node. The values are those of the file: no
  * colour profile is applied, and colours under transparent alpha are kept. */
 export function decodeImage(bytes: Uint8Array, name?: string): Promise<Image & { bits: number }>;

@@ -115,7 +115,7 @@ struct LoadLimits {
     // readFile: replaces the disk; returns the bytes of the model, by the name it is opened by, and of its decoded
     // URIs.
     std::function<Result<std::vector<std::byte>>(const std::string& name)> readFile{};
-    // Decodes an image file from its bytes, instead of Cotan's own readers. name: for messages.
+    // Decodes an image file from its bytes, instead of Cotan's own readers; KTX2 is read by these. name: for messages.
     std::function<Result<Image>(std::span<const std::byte> bytes, const std::string& name)> decode{};
 };
 
