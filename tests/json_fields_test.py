@@ -38,6 +38,7 @@ convert panel.gltf --to-frame orthonormal -o c.glb --verify converted --device r
 convert panel.gltf --to-frame cotangent -o c.glb
 convert panel.gltf --to-frame orthonormal --keep-tangents -o c.glb
 convert panel.gltf -o c.glb
+convert panel.gltf --compress uastc -o c.glb
 convert plain.gltf --to-frame mikktspace -o c.glb
 convert panel.gltf --provoking first -o c.glb
 lint panel.gltf --limit 0.01 --limit-area 0

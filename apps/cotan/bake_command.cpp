@@ -15,6 +15,7 @@
 #include "cotan/convert.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
+#include "map_files/model_texture.hpp"
 #include "map_files/placed_images.hpp"
 #include "verify.hpp"
 
@@ -58,6 +59,15 @@ Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& 
                       .keepTangents = hasStoredTangents(low, options)};
     if (options.material >= 0) // by name, since a scene numbers its materials in the order in which meshes use them
         put.material = low.materials[std::size_t(options.material)].name;
+    if (job.compress) {
+        put.extension = extensionOf(*job.compress);
+        put.encode = [&](const Image& map, const std::string& name) -> Result<std::vector<std::byte>> {
+            COTAN_TRY(texture, modelTexture(map, *job.compress, {.expansion = put.expansion}));
+            say(job.common, "{}: {} bytes in blocks; mean {:.3f}, 99 % {:.2f} degrees", name, texture->bytes.size(),
+                texture->cost.mean, texture->cost.percentile99);
+            return std::move(texture->bytes);
+        };
+    }
     const auto written = writeModelWithMaps(document, imagesOf(baked), put, job.files.maps.front());
     if (!written)
         return withBakeOptionNames(job, written.error());

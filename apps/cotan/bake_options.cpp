@@ -9,6 +9,7 @@
 #include "cotan/convention.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
+#include "map_files/model_texture.hpp"
 #include "parse.hpp"
 #include "picture_options.hpp"
 #include "scene/normal_maps.hpp"
@@ -182,6 +183,16 @@ Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
     options.bake.frame = *frame;
     COTAN_TRY(format, formatOfMap(o.convention, o.expansion, namedAsGltf(o.output)));
     options.stored.format = *format;
+    if (o.compress != "none") {
+        const auto code = modelCodeFor(o.compress);
+        if (!code)
+            return withOptionNames(code.error());
+        if (!namedAsGltf(o.output))
+            return usageError(fmt::format("--compress: expected -o MODEL.glb or .gltf, which stores its normal maps as "
+                                          "blocks (map mips does so for a map); found '{}'",
+                                          o.output.string()));
+        job.compress = *code;
+    }
     COTAN_CHECK(parseHigh(o, job));
     COTAN_CHECK(checkRays(job));
     return job;
@@ -305,6 +316,7 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.choice("--bits", model.stored.type, kBitCounts,
              "bits per component: 8, 16 or 32 (float; " + imageEndings(&ImageFormat::negative, ", ", " or ") + ")")
         .in("N");
+    addModelCompress(a, o.compress);
     a.flag("--dither", model.stored.dither, "with 8 bits: dither with a fixed pattern, so that slopes show no steps");
     a.option("--convention", o.convention, "how the map is stored: " + conventionWords())
         .in("WORDS")

@@ -335,12 +335,7 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .from({8, 16})
         .in("N")
         .withoutDefault();
-    a.option(
-         "--compress", o.compress,
-         "store the normal maps as KTX2 with all their levels: none; uastc (KHR_texture_basisu, for every browser and "
-         "device) or astc-4x4 to astc-8x8 (EXT_texture_astc, for phones)")
-        .in("NAME")
-        .offers(modelCompressionWords());
+    addModelCompress(a, o.compress);
     a.choice(
         "--unsigned", o.maps.expansion, kExpansions,
         "how the engine decodes the maps: biased (2c - 1, as glTF says and stock engines do) or exact (zero is 128, "

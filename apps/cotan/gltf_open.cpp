@@ -4,6 +4,7 @@
 
 #include "cotan/model.hpp"
 #include "files/bytes.hpp"
+#include "map_files/model_texture.hpp"
 
 namespace cotan::app {
 
@@ -40,6 +41,16 @@ std::vector<std::string> fileNames(const GltfWritten& written)
     for (const auto& file : written.files)
         names.push_back(file.string());
     return names;
+}
+
+void addModelCompress(Arguments& command, std::string& compress)
+{
+    command
+        .option("--compress", compress,
+                "store the normal maps of a model as KTX2 with all their levels: none; uastc (KHR_texture_basisu, for "
+                "every browser and device) or astc-4x4 to astc-8x8 (EXT_texture_astc, for phones)")
+        .in("NAME")
+        .offers(modelCompressionWords());
 }
 
 } // namespace cotan::app

@@ -19,6 +19,9 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
 // `limits` leaves out: models that cannot be drawn are not rewritten. Errors: those of openGltf.
 Result<OpenGltf> openGltfToEdit(const std::string& model, const LoadLimits& limits, const CommonOptions& common);
 
+// The option --compress of commands that write models: a word of modelCompressionWords.
+void addModelCompress(Arguments& command, std::string& compress);
+
 // The names of the written files, for a report.
 std::vector<std::string> fileNames(const GltfWritten& written);
 

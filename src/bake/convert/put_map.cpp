@@ -231,6 +231,10 @@ Result<GltfWritten> writeModelWithMaps(GltfDocument& document, const MaterialIma
         resetFactors(rootOf(document)["materials"][material], maps);
     if (maps.baseColor && multipliesColors(rootOf(document), *materials))
         notes.push_back("the low mesh has vertex colours, which multiply the baked base colour");
+    if (options.encode) {
+        COTAN_TRY(stored, storeNormalMaps(document, options.encode, options.extension));
+        notes.insert(notes.end(), stored->notes.begin(), stored->notes.end());
+    }
     auto written = writeGltf(document, output);
     if (written)
         written->notes.insert(written->notes.begin(), notes.begin(), notes.end());

@@ -198,6 +198,8 @@ struct PutMapOptions {
     Expansion expansion = Expansion::exact; // how the map stores signed numbers; the materials record it
     bool keepTangents = false; // for frames of tangents: the map was made with the file's TANGENT, which stays.
                                // Otherwise it is generated. For other frames it is dropped as by dropTangents
+    EncodeTexture encode{};    // by storeNormalMaps, with `extension`; empty: the normal map stays PNG
+    std::string extension{};
 };
 
 // Makes materials read a PNG as their normal map, at full strength and with the uv set and transform of their previous
@@ -217,7 +219,8 @@ struct MaterialImages {
 
 // Puts maps into the document, which the call changes, and writes it. Materials read them at full strength, with the uv
 // set and transform of their normal maps; alpha of their base colour stays. Occlusion and roughness become one image.
-// GltfWritten::notes begin with those of putNormalMap. Errors: those of putNormalMap, encodePng and writeGltf.
+// GltfWritten::notes begin with those of putNormalMap. Errors: those of putNormalMap, encodePng,
+// storeNormalMaps and writeGltf.
 Result<GltfWritten> writeModelWithMaps(GltfDocument& document, const MaterialImages& maps, const PutMapOptions& options,
                                        const std::filesystem::path& output);
 
