@@ -338,20 +338,32 @@ TEST(GltfMaterial, aWebpExtensionIsReadIfThereIsNoPlainSource)
     EXPECT_EQ(image.bytes8()[2], 250);
 }
 
-// (0.6, 0, 0.8) to within one code: 128 + 127 * 0.6 is 204.2, so x is 76 / 127 and z 0.8012, which is 101.75 codes.
+// (0.6, 0, 0.8) to within one code: 128 + 127 * 0.6 is 204.2, so x is 76 / 127 and z 0.8012, which is 101.75 codes. The
+// second file is UASTC of one colour (mode 8) whose descriptor says that y is in alpha.
 TEST(GltfMaterial, aTwoChannelNormalMapGetsItsThird)
 {
-    Gltf g = square();
-    addNormalMap(g);
-    const std::string file = makeKtx2({.format = 16, .levels = {{"\xcc\x80"}}});
-    g.root["images"][0] = {{"uri", "data:image/ktx2;base64," + base64(file)}};
-    g.root["extensionsUsed"] = g.root["extensionsRequired"] = {"KHR_texture_basisu"};
-    g.root["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
-    COTAN_LOADED(scene, g.load());
-    EXPECT_TRUE(scene.warnings.empty());
-    ASSERT_EQ(scene.images.at(0).pixelCount(), 1u);
-    EXPECT_EQ(scene.images[0].bytes8()[0], 204);
-    EXPECT_EQ(scene.images[0].bytes8()[2], 230);
+    std::uint64_t block = 0x17;
+    const std::uint64_t color[] = {0xcc, 0xcc, 0xcc, 0x80};
+    for (int c = 0; c < 4; ++c)
+        block |= color[c] << (5 + 8 * c);
+    const std::string files[] = {makeKtx2({.format = 16, .levels = {{"\xcc\x80"}}}),
+                                 makeKtx2({.format = 0,
+                                           .levels = {{test::little(block, 8) + std::string(8, '\0')}},
+                                           .colourModel = 166,
+                                           .channelTypes = {5}})};
+    for (const std::string& file : files) {
+        Gltf g = square();
+        addNormalMap(g);
+        g.root["images"][0] = {{"uri", "data:image/ktx2;base64," + base64(file)}};
+        g.root["extensionsUsed"] = g.root["extensionsRequired"] = {"KHR_texture_basisu"};
+        g.root["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+        COTAN_LOADED(scene, g.load());
+        EXPECT_TRUE(scene.warnings.empty());
+        ASSERT_EQ(scene.images.at(0).pixelCount(), 1u);
+        EXPECT_EQ(scene.images[0].bytes8()[0], 204);
+        EXPECT_EQ(scene.images[0].bytes8()[1], 128);
+        EXPECT_EQ(scene.images[0].bytes8()[2], 230);
+    }
 }
 
 TEST(GltfMaterial, unusedImagesAreNotDecoded)

@@ -116,7 +116,7 @@ OLD_NAMES = {
     "src/c/old_names.cpp": r"cotan_status (\w+)\(",
     "src/files/old_fields.hpp": r'\{"\w+", "(\w+)"\}',
     "bindings/python/cotan/_old_names.py": r'^    "(\w+_\w+)": "\w+",$',
-    "bindings/js/src/old_names.js": r"as (\w+) }",
+    "bindings/js/src/old_names.js": r"(\w+): \w+ }",
     "bindings/js/types/old_names.d.ts": r"export (?:type|const) (\w+)",
 }
 

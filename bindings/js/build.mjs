@@ -58,6 +58,7 @@ import { hostImports } from './src/host.js';
 import { CotanError, Library } from './src/instance.js';
 import { mapFunctions } from './src/maps.js';
 import { modelFunctions } from './src/models.js';
+import { oldNames } from './src/old_names.js';
 import { provokingFunction } from './src/provoking.js';
 import { tangentFunctions } from './src/tangents.js';
 import { bytes } from './wasm/cotan_${way}.js';
@@ -72,7 +73,7 @@ export const { lint, convert, decodeImage } = modelFunctions(library, host, (map
 export const version = () => library.version;
 export { overLimits } from './src/verdict.js';
 export { decodePng, encodePng } from './src/png.js';
-export { decodeImage as decodePicture };
+export const { decodePicture } = oldNames(decodeImage);
 export { CotanError };
 `,
 };
