@@ -1,0 +1,206 @@
+"""The add-on of scripts/godot-addon in Godot 4, in its three renderers, judged by the formula of a ring.
+
+    godot.py TOOL [FOLDER]
+
+TOOL: cotan; FOLDER: where images and Godot's output are left. A ring is imported twice: with Godot's tangents, and with
+the add-on's option that removes them. The normals that each renderer lights with are read back to 1e-6 and compared with
+those of the formula. Exit code 77 if Godot 4 is missing (scripts/try-engines gets it)."""
+
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+RENDERERS = {"Forward+": ("forward_plus", "vulkan"), "Mobile": ("mobile", "vulkan"), "Compatibility": ("gl_compatibility", "opengl3")}
+SIZE = 384
+RADIUS, TUBE = 0.7, 0.3
+
+
+def skip(reason):
+    print("skipped: " + reason)
+    sys.exit(77)
+
+
+def version():
+    if not shutil.which("xvfb-run") or not shutil.which("godot"):
+        skip("no Godot 4 or no xvfb-run (scripts/try-engines)")
+    said = subprocess.run(["godot", "--version"], capture_output=True, text=True).stdout
+    if not said.startswith("4."):
+        skip("godot is not Godot 4 (scripts/try-engines)")
+    return ".".join(said.split(".")[:3])
+
+
+# ---- The ring: u around it, v around its tube and down, normals outwards; its map has 8 bits, 128 is zero.
+
+
+def bumps(u, v):
+    x, y = 0.6 * np.sin(2 * np.pi * 16 * u), 0.6 * np.sin(2 * np.pi * 6 * v)
+    m = np.stack([x, y, np.ones_like(x)], axis=-1)
+    return m / np.linalg.norm(m, axis=-1, keepdims=True)
+
+
+def flat(u, v):
+    return np.stack([0 * u, 0 * u, np.ones_like(u)], axis=-1)
+
+
+def ring(u, v):
+    """Position, normal, direction of u, and direction up the image, against v."""
+    a, b = 2 * np.pi * u, 2 * np.pi * v
+    zero = np.zeros_like(a)
+    outwards = np.stack([np.sin(a), zero, np.cos(a)], axis=-1)
+    normal = outwards * np.cos(b)[..., None] + np.stack([zero, -np.sin(b), zero], axis=-1)
+    along = np.stack([np.cos(a), zero, -np.sin(a)], axis=-1)
+    up = outwards * np.sin(b)[..., None] + np.stack([zero, np.cos(b), zero], axis=-1)
+    return outwards * RADIUS + normal * TUBE, normal, along, up
+
+
+def write_png(file, pixels):
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
+    chunks = [(b"IHDR", struct.pack(">IIBBBBB", pixels.shape[1], pixels.shape[0], 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b"")]
+    data = b"".join(struct.pack(">I", len(c)) + n + c + struct.pack(">I", zlib.crc32(n + c)) for n, c in chunks)
+    file.write_bytes(b"\x89PNG\r\n\x1a\n" + data)
+
+
+def write_map(file, formula, width, height):
+    u, v = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
+    write_png(file, np.round(127 * formula(u, v) + 128).astype(np.uint8))
+
+
+def write_ring(file, columns=128, rows=64):
+    u, v = np.meshgrid(np.arange(columns + 1) / columns, np.arange(rows + 1) / rows)
+    position, normal, _, _ = ring(u, v)
+    first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    below = first + columns + 1
+    corners = np.stack([first, below, first + 1, first + 1, below, below + 1], axis=-1).astype(np.uint32)
+    parts = [position.astype(np.float32), normal.astype(np.float32), np.stack([u, v], axis=-1).astype(np.float32), corners]
+    views, at = [], 0
+    for part in parts:
+        views.append({"buffer": 0, "byteOffset": at, "byteLength": part.nbytes})
+        at += part.nbytes
+    count = (columns + 1) * (rows + 1)
+    floats = {"componentType": 5126, "count": count}
+    accessors = [
+        dict(floats, bufferView=0, type="VEC3", min=position.min(axis=(0, 1)).tolist(), max=position.max(axis=(0, 1)).tolist()),
+        dict(floats, bufferView=1, type="VEC3"), dict(floats, bufferView=2, type="VEC2"),
+        {"bufferView": 3, "componentType": 5125, "count": corners.size, "type": "SCALAR"}]  # fmt: skip
+    primitive = {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}
+    file.with_suffix(".bin").write_bytes(b"".join(part.tobytes() for part in parts))
+    document = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [primitive]}],
+        "materials": [{"normalTexture": {"index": 0}, "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.6}}],
+        "textures": [{"source": 0}], "images": [{"uri": "bumps.png"}], "accessors": accessors, "bufferViews": views,
+        "buffers": [{"byteLength": at, "uri": file.with_suffix(".bin").name}]}  # fmt: skip
+    file.write_text(json.dumps(document))
+
+
+# ---- Godot
+
+
+def godot(project, log, *words, display=True):
+    screen = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24"] if display else []
+    environment = dict(os.environ, HOME=str(project.parent), LIBGL_ALWAYS_SOFTWARE="1", LC_ALL="C.UTF-8")
+    for name in ("XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"):
+        environment.pop(name, None)
+    run = subprocess.run([*screen, "godot", "--path", project, "--audio-driver", "Dummy", *words], env=environment, timeout=300,
+                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, stdin=subprocess.DEVNULL)  # fmt: skip
+    log.write_text(run.stdout)
+    wrong = [line for line in run.stdout.splitlines() if "SHADER ERROR" in line or "SCRIPT ERROR" in line or "Parse Error" in line]
+    assert run.returncode == 0 and not wrong, "\n".join(wrong) or run.stdout[-2000:]
+    return run.stdout
+
+
+def write_import(model, without, compressed):
+    """Import settings as the import dock writes them; Godot fills in the others."""
+    words = {True: "true", False: "false"}
+    model.with_name(model.name + ".import").write_text(
+        f'[remap]\n\nimporter="scene"\nimporter_version=1\ntype="PackedScene"\n\n[params]\n\nmeshes/ensure_tangents={words[not without]}\n'
+        f"meshes/force_disable_compression={words[not compressed]}\ncotan/without_tangents={words[without]}\n")
+
+
+def rotation(x, y):
+    a, b = np.array([[1, 0, 0], [0, np.cos(x), -np.sin(x)], [0, np.sin(x), np.cos(x)]]), np.array([[np.cos(y), 0, np.sin(y)], [0, 1, 0], [-np.sin(y), 0, np.cos(y)]])
+    return a @ b
+
+
+def read_normals(file, size=SIZE):
+    """Normal and uv of each pixel that has a surface, and where these are."""
+    bytes_ = np.frombuffer(file.read_bytes(), np.uint8).reshape(6, size, size, 3).astype(int)
+    inside = (bytes_ > 0).all(axis=(0, 3))
+    digits = bytes_ - 100
+    assert ((digits >= 0) & (digits < 128))[:, inside].all(), f"{file.name}: colours that the shader did not write"
+    numbers = (digits @ np.array([16384, 128, 1])) / 2097151 * 2 - 1
+    assert np.abs(numbers[5][inside] - 0.25).max() < 2e-6, f"{file.name}: the renderer changes colours"
+    return np.moveaxis(numbers[:3], 0, -1), numbers[3], numbers[4], inside
+
+
+def degrees(a, b):
+    a, b = (x / np.linalg.norm(x, axis=-1, keepdims=True) for x in (a, b))
+    return np.degrees(2 * np.arcsin(np.minimum(np.linalg.norm(a - b, axis=-1) / 2, 1)))
+
+
+def truth(u, v, formula, basis):
+    m = formula(u, v)
+    _, normal, along, up = ring(u, v)
+    return (along * m[..., :1] + up * m[..., 1:2] + normal * m[..., 2:]) @ basis.T
+
+
+def main(tool, folder):
+    name = version()
+    subprocess.run([ROOT / "scripts/godot-addon", folder], env=dict(os.environ, TOOL=tool), check=True, stdout=subprocess.DEVNULL)
+    project = folder / "cotan_godot"
+    godot(project, folder / "first.log", "--headless", "--import", display=False)  # registers the add-on
+    for file in (ROOT / "tests/engines/godot").iterdir():
+        shutil.copy(file, project)
+    write_map(project / "bumps.png", bumps, 2048, 1024)
+    write_map(project / "flat.png", flat, 4, 4)
+    for compressed in (True, False):
+        for without in (True, False):
+            file = project / f"ring_{'without' if without else 'with'}_{'small' if compressed else 'full'}.gltf"
+            write_ring(file)
+            write_import(file, without, compressed)
+    said = godot(project, folder / "import.log", "--headless", "--import", display=False)
+    assert "Cotan:" not in said, said
+
+    bases = {"": rotation(0.6, 0.3), "mirrored": rotation(0.6, 0.3) @ np.diag([-1, 1, 1])}
+    rows = []
+    for size in ("small", "full"):
+        for kind, model in (("engine", "with"), ("normals", "without"), ("material", "without"), ("visual", "without")):
+            for formula in (flat, bumps):
+                for turn in bases:
+                    if (turn or kind in ("material", "visual")) and size == "small":
+                        continue
+                    rows.append({"model": f"res://ring_{model}_{size}.gltf", "kind": kind, "size": SIZE, "eye": 4, "map": str(project / f"{formula.__name__}.png"),
+                                 "basis": bases[turn].T.tolist(), "formula": formula.__name__, "turn": turn, "detail": size})  # fmt: skip
+    for model in ("with", "without"):
+        rows.append({"model": f"res://ring_{model}_full.gltf", "kind": "imported", "size": SIZE, "eye": 4, "basis": bases[""].T.tolist()})
+    for renderer, (method, driver) in RENDERERS.items():
+        place = folder / method
+        place.mkdir(exist_ok=True)
+        jobs = [dict(row, out=str(place / f"{k}.bin")) for k, row in enumerate(rows)]
+        (place / "jobs.json").write_text(json.dumps(jobs))
+        said = godot(project, place / "log.txt", "--rendering-method", method, "--rendering-driver", driver, "measure.tscn", "--", f"--folder={place}")
+        assert "DONE" in said, said
+        for job in jobs:
+            if job["kind"] == "imported":
+                continue
+            normal, u, v, inside = read_normals(pathlib.Path(job["out"]))
+            formula = {"flat": flat, "bumps": bumps}[job["formula"]]
+            error = degrees(normal[inside], truth(u[inside], v[inside], formula, bases[job["turn"]]))
+            print(f"| {name} {renderer:13} | {job['kind']:8} | {job['formula']:5} | {job['detail']:5} | {job['turn']:8} | {inside.sum()} | mean {error.mean():.4f} 99 % {np.percentile(error, 99):.4f} max {error.max():.4f} |")
+        print(json.loads((place / "sizes.json").read_text()))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 2:
+        main(sys.argv[1], pathlib.Path(sys.argv[2]).resolve())
+    else:
+        with tempfile.TemporaryDirectory() as place:
+            main(sys.argv[1], pathlib.Path(place))
