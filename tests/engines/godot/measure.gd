@@ -1,5 +1,6 @@
 # Draws the jobs of --folder=FOLDER/jobs.json, made by tests/engines/godot.py, and writes FOLDER/sizes.json.
-# A job: model (an imported scene), kind (below), out (a file), size, basis (three columns), eye (distance), map (a file).
+# A job: model (an imported scene, which is scaled to radius 1), kind (below), out (a file), size, basis (three columns),
+# eye (distance), map (a file; default: the map of the model).
 #   imported   as it was imported, lit: one RGB image
 #   normals    the imported material of Cotan; engine: Godot's NORMAL_MAP with the tangents of the mesh; material: the
 #              ready material; visual: the visual shader of the example. Six RGB images: x, y, z of the normal in view
@@ -7,6 +8,7 @@
 extends Node
 
 const ENGINE := "shader_type spatial;
+render_mode CULL;
 uniform sampler2D normal_map : hint_normal, filter_linear_mipmap_anisotropic, repeat_enable;
 void fragment() { NORMAL_MAP = texture(normal_map, UV).rgb; }
 "
@@ -16,7 +18,7 @@ uniform float part;
 void light()
 {
 	float x = part < 0.5 ? NORMAL.x : part < 1.5 ? NORMAL.y : part < 2.5 ? NORMAL.z : part < 3.5 ? UV.x : part < 4.5 ? UV.y : 0.25;
-	float number = floor((x * 0.5 + 0.5) * 2097151.0 + 0.5);
+	float number = floor((clamp(x, -1.0, 1.0) * 0.5 + 0.5) * 2097151.0 + 0.5);
 	float high = floor(number / 16384.0);
 	float middle = floor((number - high * 16384.0) / 128.0);
 	vec3 bytes = vec3(high, middle, number - high * 16384.0 - middle * 128.0) + 100.0;
@@ -65,9 +67,20 @@ func draw(job: Dictionary, sizes: Dictionary) -> void:
 	turned.basis = Basis(vector(columns[0]), vector(columns[1]), vector(columns[2]))
 	turned.add_child(scene)
 	viewport.add_child(turned)
+	var nodes := scene.find_children("*", "MeshInstance3D", true, false)
+	if scene is MeshInstance3D:
+		nodes.append(scene)
+	var inverse := turned.basis.inverse()
+	var box := AABB()
+	for node: MeshInstance3D in nodes:
+		var own := Transform3D(inverse) * node.global_transform * node.get_aabb()
+		box = own if node == nodes[0] else box.merge(own)
+	var unit := 2 / box.size.length()
+	turned.basis = turned.basis.scaled_local(Vector3(unit, unit, unit))
+	turned.position = turned.basis * -box.get_center()
 	var materials := []
 	var size := {"vertices": 0, "bytes": 0, "tangents": 0, "surfaces": 0, "kept": 0}
-	for node: MeshInstance3D in scene.find_children("*", "MeshInstance3D", true, false) + ([scene] if scene is MeshInstance3D else []):
+	for node: MeshInstance3D in nodes:
 		for i in node.mesh.get_surface_count():
 			measure(node.mesh, i, size)
 			if job.kind != "imported":
@@ -102,16 +115,18 @@ func measure(mesh: Mesh, i: int, size: Dictionary) -> void:
 	size.kept += int(mesh.surface_get_material(i) is StandardMaterial3D)
 
 
+# All with the same filter, opaque, and without emission.
 func material_of(kind: String, imported: Material) -> ShaderMaterial:
 	var material := ShaderMaterial.new()
-	var code := ENGINE
+	var code := ENGINE.replace("CULL", "cull_back")
+	if imported is StandardMaterial3D:
+		code = ENGINE.replace("CULL", ["cull_back", "cull_front", "cull_disabled"][imported.cull_mode])
+		material.set_shader_parameter("normal_map", imported.normal_texture)
+	elif kind == "normals":
+		material = imported.duplicate()
+		code = imported.shader.code.replace("#define COTAN_ALPHA\n", "").replace("filter_linear_mipmap,", "filter_linear_mipmap_anisotropic,")
+		material.set_shader_parameter("emission_energy", 0)
 	match kind:
-		"normals":
-			material = imported.duplicate()
-			code = material.shader.code
-		"engine":
-			if imported is StandardMaterial3D:
-				material.set_shader_parameter("normal_map", imported.normal_texture)
 		"material":
 			code = load("res://addons/cotan/material.tres").shader.code.replace("\"material", "\"res://addons/cotan/material")
 		"visual":

@@ -96,8 +96,6 @@ func converted(from: StandardMaterial3D) -> ShaderMaterial:
 		values["emission_energy"] = from.emission_energy_multiplier
 		values["emission_multiplies"] = from.emission_operator == BaseMaterial3D.EMISSION_OP_MULTIPLY
 		values["texture_emission"] = from.emission_texture
-		# Where there is no image, Godot adds black and multiplies by white.
-		values["has_emission"] = from.emission_texture != null
 	if from.ao_enabled:
 		values["ao_light_affect"] = from.ao_light_affect
 		values["texture_ao"] = from.ao_texture
@@ -112,7 +110,7 @@ func converted(from: StandardMaterial3D) -> ShaderMaterial:
 
 
 func _shader_for(from: StandardMaterial3D) -> Shader:
-	var modes: Array[String] = ["blend_mix", DEPTHS[from.depth_draw_mode], CULLS[from.cull_mode]]
+	var modes: Array[String] = ["diffuse_burley", DEPTHS[from.depth_draw_mode], CULLS[from.cull_mode]]
 	if from.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_DEPTH_PRE_PASS:
 		modes.append("depth_prepass_alpha")
 	var code := "shader_type spatial;\nrender_mode %s;\n%s#define COTAN_SAMPLER %s, %s\n#include \"%s\"\n" % [
