@@ -193,13 +193,15 @@ def draw(project, place, renderer, jobs):
 
 
 def judge_ring(renderer, jobs):
-    errors = {}
+    """Returns mean and 99 % of each case."""
+    errors, rows = {}, {}
     for job in jobs:
         kind, formula, turn, detail = job["name"]
         normal, u, v, inside = read_normals(pathlib.Path(job["out"]))
         assert inside.mean() > 0.3, job["name"]
         error = degrees(normal[inside], truth(u[inside], v[inside], FORMULAS[formula], BASES[turn]))
         errors[job["name"]] = error.mean()
+        rows[(formula, detail, kind, turn)] = (error.mean(), np.percentile(error, 99))
         print(f"ring, {renderer}, {detail} import: {kind:8} {formula:5} {turn:8} mean {error.mean():.3f}, 99 % {np.percentile(error, 99):.2f}")
     own, ours = (lambda *name, k=kind: errors[(k, *name)] for kind in ("engine", "normals"))
     # A texel of 128 leans by 0.31 degrees with 2c - 1. Ours is left with the interpolation of normals, which have 16 bits.
@@ -211,7 +213,22 @@ def judge_ring(renderer, jobs):
     assert abs(ours("bumps", "mirrored", "exact") - ours("bumps", "", "exact")) < 0.01
     for kind in ("material", "visual"):
         assert abs(errors[(kind, "bumps", "", "exact")] - ours("bumps", "", "exact")) < 0.001, kind
-    return errors
+    return rows
+
+
+def judge_page(name, rows):
+    """The table of docs/engines.md, if it is of this version."""
+    page = (ROOT / "docs/engines.md").read_text()
+    if f"| Godot, Forward+ | {name} |" not in page:
+        print(f"docs/engines.md has another version than {name}: not compared")
+        return
+    for formula, detail, words in (("flat", "exact", "flat map"), ("bumps", "exact", "bumps"), ("bumps", "default", "bumps, default import")):
+        for kind, whose in (("normals", "the add-on"), ("engine", "Godot's tangents")):
+            cells = next(line for line in page.splitlines() if line.startswith(f"| {words}: {whose} |")).split("|")[2:5]
+            for cell, renderer in zip(cells, RENDERERS):
+                mean, high = map(float, cell.split(","))
+                measured = rows[renderer][(formula, detail, kind, "")]
+                assert abs(measured[0] - mean) < 0.01 and abs(measured[1] - high) < 0.05, (words, whose, renderer, measured)
 
 
 def judge_models(renderer, jobs, sizes):
@@ -285,11 +302,13 @@ def main(tool, folder):
     said = godot(project, folder / "import.log", "--headless", "--import", display=False)
     assert "Cotan:" not in said, "no material is refused"
     judge_pairs(project, folder / "pairs.log")
+    measured = {}
     for renderer in RENDERERS:
         rings, others = ring_jobs(project), model_jobs(models)
         sizes = draw(project, folder / RENDERERS[renderer][0], renderer, rings + others)
-        judge_ring(renderer, rings)
+        measured[renderer] = judge_ring(renderer, rings)
         judge_models(renderer, others, sizes)
+    judge_page(name, measured)
     judge_button(project, folder / "button.log")
     print(f"holds: Godot {name} draws models without their tangents in {', '.join(RENDERERS)}")
 
