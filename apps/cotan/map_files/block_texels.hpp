@@ -26,6 +26,7 @@ using FourInts = std::int32_t __attribute__((vector_size(16)));
 using Values = std::array<Four, 4>;
 
 inline float& at(Values& values, std::size_t i) { return reinterpret_cast<float*>(values.data())[i]; }
+inline float at(const Values& values, std::size_t i) { return values[i / 4][i % 4]; }
 
 inline Four maxOf(Four a, Four b) { return a > b ? a : b; }
 inline Four minOf(Four a, Four b) { return a < b ? a : b; }
