@@ -1,8 +1,9 @@
-// BC5, BC4 and BC7, decoded by the definition of their blocks.
+// BC5 and BC4, decoded by the definition of their blocks, and BC7, decoded by OpenImageIO.
 #include "map_files/block.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -14,6 +15,8 @@
 #include <gtest/gtest.h>
 
 #include "core/loops.hpp"
+#include "cotan/image.hpp"
+#include "image/dds.hpp"
 
 namespace cotan::maps {
 
@@ -182,36 +185,25 @@ TEST(Block, oddSizesRepeatTheirEdgesForAnyThreads)
 
 using Texel = std::array<int, 4>;
 
-// Decodes mode 6 as Microsoft defines it.
-std::array<Texel, 16> decodedMode6(const std::byte* block)
+// Decodes blocks by OpenImageIO: 4 x 4 texels for each block of a row.
+std::vector<Texel> decodedBc7(const std::vector<std::byte>& blocks, int width = 4, int height = 4)
 {
-    std::size_t bit = 0;
-    const auto take = [&](int count) {
-        int value = 0;
-        for (int i = 0; i < count; ++i, ++bit)
-            value |= (std::to_integer<int>(block[bit / 8]) >> bit % 8 & 1) << i;
-        return value;
-    };
-    EXPECT_EQ(take(7), 0x40) << "another mode";
-    std::array<Texel, 2> ends{};
-    for (std::size_t c = 0; c < 4; ++c)
-        for (Texel& end : ends)
-            end[c] = take(7) * 2;
-    for (Texel& end : ends) {
-        const int low = take(1);
-        for (int& c : end)
-            c |= low;
+    std::vector<std::byte> dds = ddsHeader({"DX10", 98, 16}, width, height, 1);
+    dds.insert(dds.end(), blocks.begin(), blocks.end());
+    const auto image = decodeImage(dds, "block.dds");
+    std::vector<Texel> texels(std::size_t(width) * std::size_t(height));
+    if (!image || image->pixelCount() != texels.size()) {
+        ADD_FAILURE() << (image ? "another size" : image.error().message);
+        return texels;
     }
-    constexpr int kWeights[] = {0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64};
-    std::array<Texel, 16> texels{};
-    for (std::size_t i = 0; i < 16; ++i) {
-        const int weight = kWeights[take(i == 0 ? 3 : 4)];
+    for (std::size_t i = 0; i < texels.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c)
-            texels[i][c] = ((64 - weight) * ends[0][c] + weight * ends[1][c] + 32) >> 6;
-    }
-    EXPECT_EQ(bit, 128u);
+            texels[i][c] = image->bytes8()[4 * i + c];
     return texels;
 }
+
+// The mode of a block: the position of its lowest bit that is 1.
+int modeOf(const std::byte* block) { return std::countr_zero(std::to_integer<unsigned>(*block)); }
 
 double angleError(const Texel& codes, const glm::dvec3& normal)
 {
@@ -237,7 +229,7 @@ TEST(Bc7, linearCodesAreKeptWithinHalfAStepAndAlphaOneStays)
             for (int c = 0; c < 4; ++c)
                 ramp.floats()[4 * i + c] = c < 3 ? ((codes[c] - 128) / 127 + 1) / 2 : codes[c] / 255;
         }
-        const auto back = decodedMode6(encodeBc7(ramp, {}, true).data());
+        const auto back = decodedBc7(encodeBc7(ramp, {}, true));
         for (int i = 0; i < 16; ++i) {
             const int t = falls ? 15 - i : i;
             // Endpoints differ by at most 1 if the lowest bit does not suit all channels.
@@ -248,7 +240,7 @@ TEST(Bc7, linearCodesAreKeptWithinHalfAStepAndAlphaOneStays)
     }
     std::mt19937 random(5);
     for (int block = 0; block < 50; ++block)
-        for (const Texel& texel : decodedMode6(encodeBc7(opaqueBlockOf(tilted(40, 0.5, random), 4), {}).data()))
+        for (const Texel& texel : decodedBc7(encodeBc7(opaqueBlockOf(tilted(40, 0.5, random), 4), {})))
             EXPECT_EQ(texel[3], 255);
 }
 
@@ -263,7 +255,7 @@ TEST(Bc7, opposingChannelsAreKept)
         for (int i = 0; i < 16; ++i)
             for (int c = 0; c < 4; ++c)
                 ramp.floats()[4 * i + c] = c < 3 ? ((code(i, c) - 128) / 127 + 1) / 2 : code(i, c) / 255;
-        const auto back = decodedMode6(encodeBc7(ramp, {}, true).data());
+        const auto back = decodedBc7(encodeBc7(ramp, {}, true));
         for (int i = 0; i < 16; ++i)
             for (int c = 0; c < 4; ++c)
                 EXPECT_NEAR(float(back[std::size_t(i)][std::size_t(c)]), code(i, c), 2)
@@ -273,8 +265,7 @@ TEST(Bc7, opposingChannelsAreKept)
 
 TEST(Bc7, flatNormalsStayFlat)
 {
-    const auto back =
-        decodedMode6(encodeBc7(opaqueBlockOf(std::vector<glm::dvec3>(16, glm::dvec3(0, 0, 1)), 4), {}).data());
+    const auto back = decodedBc7(encodeBc7(opaqueBlockOf(std::vector<glm::dvec3>(16, glm::dvec3(0, 0, 1)), 4), {}));
     for (const Texel& texel : back) {
         // With alpha 255 the lowest bit of every endpoint is set, so 128 is interpolated between 127 and 129.
         EXPECT_EQ(texel[0], 128);
@@ -291,8 +282,7 @@ TEST(Bc7, anglesAreSmallerThanThoseOfTheClosestVectors)
     for (int block = 0; block < 40; ++block) {
         const auto normals = tilted(30, 0.02, random);
         const Image map = opaqueBlockOf(normals, 4);
-        const auto angles = decodedMode6(encodeBc7(map, {}).data()),
-                   vectors = decodedMode6(encodeBc7(map, {}, true).data());
+        const auto angles = decodedBc7(encodeBc7(map, {})), vectors = decodedBc7(encodeBc7(map, {}, true));
         for (std::size_t i = 0; i < 16; ++i) {
             ours += std::pow(angleError(angles[i], normals[i]), 2);
             closest += std::pow(angleError(vectors[i], normals[i]), 2);
@@ -315,9 +305,85 @@ TEST(Bc7, oddSizesRepeatTheirEdgesForAnyThreads)
     std::vector<std::byte> one;
     withThreads(1, [&] { one = encodeBc7(odd, {}); });
     EXPECT_EQ(one, bytes);
-    const auto corner = decodedMode6(bytes.data() + 16 * 5); // texels 4..6 of row 8, then copies
+    const auto corner = decodedBc7({bytes.begin() + 16 * 5, bytes.end()}); // texels 4..6 of row 8, then copies
     for (std::size_t i = 3; i < 16; ++i)
         EXPECT_EQ(corner[i], corner[i == 3 ? 2 : i % 4]);
+}
+
+// A row of blocks: of 2 degrees around a tilt, of 30, of two halves that are smooth, of three colors, and of noise.
+std::vector<glm::dvec3> mixedRow(std::size_t blocks, std::mt19937& random)
+{
+    std::uniform_real_distribution<double> anywhere(-0.5, 0.5), near(-0.02, 0.02);
+    std::vector<glm::dvec3> normals(16 * blocks);
+    for (std::size_t b = 0; b < blocks; ++b) {
+        const glm::dvec2 slopes[] = {{anywhere(random), anywhere(random)}, {anywhere(random), anywhere(random)}};
+        const double range = b % 4 == 0 ? 0.02 : b % 4 == 1 ? 0.1 : b % 4 == 2 ? 0.3 : 1;
+        for (std::size_t i = 0; i < 16; ++i) {
+            glm::dvec2 at = slopes[b % 3 == 0 && i % 4 > 1] + range * glm::dvec2(anywhere(random), near(random));
+            if (b % 5 == 4)
+                at = range * glm::dvec2(anywhere(random), anywhere(random));
+            normals[i / 4 * 4 * blocks + 4 * b + i % 4] = glm::normalize(glm::dvec3(at, 1));
+        }
+    }
+    return normals;
+}
+
+// If a partition, an anchor or the order of a mode's fields were wrong, its texels would be off by tens of degrees.
+TEST(Bc7, eachModeAndPartitionIsReadByAnotherDecoder)
+{
+    std::mt19937 random(13);
+    constexpr std::size_t kBlocks = 3000;
+    const auto normals = mixedRow(kBlocks, random);
+    Image map = opaqueBlockOf(normals, 4 * int(kBlocks));
+    for (const bool opaque : {true, false}) {
+        std::uniform_real_distribution<float> alpha(0.2f, 0.9f);
+        for (std::size_t i = 0; i < normals.size() && !opaque; ++i)
+            map.floats()[4 * i + 3] = i / 4 % 2 == 0 ? 0.5f : alpha(random);
+        const auto blocks = encodeBc7(map, {});
+        const auto texels = decodedBc7(blocks, 4 * int(kBlocks));
+        std::array<int, 8> modes{};
+        std::array<bool, 64> partitions{};
+        double worst = 0;
+        for (std::size_t b = 0; b < kBlocks; ++b) {
+            const int mode = modeOf(&blocks[16 * b]);
+            ++modes.at(std::size_t(mode));
+            const auto head =
+                std::to_integer<std::size_t>(blocks[16 * b]) | std::to_integer<std::size_t>(blocks[16 * b + 1]) << 8;
+            if (mode == 1 || mode == 3)
+                partitions[head >> (mode + 1) & 63] = true;
+        }
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            worst = std::max(worst, angleError(texels[i], normals[i]));
+            EXPECT_NEAR(float(texels[i][3]), 255 * map.floats()[4 * i + 3], opaque ? 0 : 60) << i;
+        }
+        EXPECT_LT(worst, opaque ? 15 : 45);
+        for (const int mode : opaque ? std::vector{0, 1, 3, 4, 5, 6} : std::vector{4, 5, 6, 7})
+            EXPECT_GT(modes[std::size_t(mode)], 0) << mode;
+        EXPECT_EQ(std::count(partitions.begin(), partitions.end(), true), opaque ? 64 : 0);
+    }
+}
+
+// Where x and y are independent, one line for both is of no use. BC5 has eight values for x and eight for y; BC7 has
+// four for one of them.
+TEST(Bc7, independentSlopesAreNearlyAsExactAsInBc5)
+{
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> slope(-0.5, 0.5);
+    double three = 0, two = 0;
+    for (int block = 0; block < 200; ++block) {
+        std::vector<glm::dvec3> normals(16);
+        for (glm::dvec3& n : normals)
+            n = glm::normalize(glm::dvec3(slope(random), slope(random), 1));
+        const Image map = opaqueBlockOf(normals, 4);
+        const auto texels = decodedBc7(encodeBc7(map, {}));
+        const auto bytes = encodeBc5(map, {});
+        const Half x = decodedHalf(bytes.data()), y = decodedHalf(bytes.data() + 8);
+        for (std::size_t i = 0; i < 16; ++i) {
+            three += angleError(texels[i], normals[i]);
+            two += angleError(glm::dvec2(x[i], y[i]), normals[i]);
+        }
+    }
+    EXPECT_LT(three, 1.6 * two) << three / 3200 << " degrees, " << two / 3200;
 }
 
 TEST(Block, oneChannelIsKeptWithinHalfAStep)

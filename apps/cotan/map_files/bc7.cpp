@@ -1,12 +1,14 @@
-// BC7 encoder for normal maps that uses only mode 6: the RGBA values of a block lie on one line, at 16 positions
-// between two ends, each stored as 7 bits per channel and one bit that its channels share. Microsoft, BC7 Format;
-// Khronos Data Format 1.3, section 20.
+// BC7 encoder for normal maps. Candidates, a mode and a partition each, are ordered by an estimate; the best are
+// fitted, and the best of these refined.
 #include "block.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "bc7_fit.hpp"
+#include "bc7_layout.hpp"
 #include "block_texels.hpp"
 
 namespace cotan::app {
@@ -15,20 +17,12 @@ namespace bc7 {
 
 namespace {
 
-// The texels of a block: codes of 0 to 255, and unit normals, or zero if lengths count.
-struct Texels {
-    std::array<Values, 4> codes;
-    std::array<Values, 3> n;
-    float zero = 128;       // the code of 0
-    bool opaque = true;     // alpha is 255 in all texels
-    bool directions = true; // only directions count, not lengths
-};
-
 Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale, bool lengths)
 {
     Texels t{};
     t.zero = scale.zero;
     t.directions = !lengths;
+    std::array<float, 3> mean{};
     for (std::size_t i = 0; i < 16; ++i) {
         const float* const texel = texelAt(map, left, top, int(i));
         std::array<float, 3> n{};
@@ -38,283 +32,369 @@ Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale, boo
             square += n[c] * n[c];
             at(t.codes[c], i) = std::clamp(scale.zero + scale.unit * n[c], 0.0f, 255.0f);
         }
-        const float inverse = lengths || !(square > 1e-6f) ? 0 : 1 / std::sqrt(square);
-        for (std::size_t c = 0; c < 3; ++c)
+        const float inverse = square > 1e-6f ? 1 / std::sqrt(square) : 0;
+        for (std::size_t c = 0; c < 3; ++c) {
             at(t.n[c], i) = n[c] * inverse;
+            mean[c] += n[c] * inverse;
+        }
         at(t.codes[3], i) = std::clamp(255 * texel[3], 0.0f, 255.0f);
         t.opaque = t.opaque && texel[3] >= 1;
+    }
+    t.aim = t.codes;
+    t.weight.fill(kZero + 1);
+    const float length = std::sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
+    for (std::size_t i = 0; i < 4 && t.directions && length > 1; ++i) {
+        Four height = kZero; // above the plane through the origin that is perpendicular to the mean
+        for (std::size_t c = 0; c < 3; ++c)
+            height += t.n[c][i] * (mean[c] / length);
+        height = maxOf(height, kZero + 0.1f);
+        t.weight[i] = height * height;
+        for (std::size_t c = 0; c < 3; ++c)
+            t.aim[c][i] = t.zero + scale.unit * t.n[c][i] / height;
     }
     return t;
 }
 
-using Color = std::array<float, 4>;
+// ---- estimates -----------------------------------------------------------------------------
 
-// The two ends as stored: 7 bits per channel, and the lowest bit that all four channels share.
-struct Ends {
-    std::array<std::array<int, 4>, 2> high{};
-    std::array<int, 2> low{};
-
-    float code(std::size_t end, std::size_t c) const { return float(high[end][c] * 2 + low[end]); }
+// Weighted moments of points, of four sets at once.
+struct Moments {
+    Four w{}, x{}, y{}, xx{}, xy{}, yy{};
 };
 
-// The positions on the line, from 0 at the first end to 1, that are nearest to four texels.
-Four nearestPosition(const Texels& t, std::size_t i, const Color& from, const Color& step, float length)
+Moments operator-(const Moments& a, const Moments& b)
 {
-    if (t.directions && t.opaque) { // minimises the angle between n and a + position * d
-        float aa = 0, ad = 0, dd = 1e-9f;
-        Four na = kZero, nd = kZero;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float a = from[c] - t.zero;
-            aa += a * a;
-            ad += a * step[c];
-            dd += step[c] * step[c];
-            na += t.n[c][i] * a;
-            nd += t.n[c][i] * step[c];
-        }
-        const Four below = na * dd - nd * ad;
-        return below > 1e-6f ? (nd * aa - na * ad) / below : kZero;
-    }
-    Four along = kZero;
-    for (std::size_t c = 0; c < 4; ++c)
-        along += (t.codes[c][i] - from[c]) * step[c];
-    return along * (1 / length);
+    return {a.w - b.w, a.x - b.x, a.y - b.y, a.xx - b.xx, a.xy - b.xy, a.yy - b.yy};
 }
 
-// Sum of squared errors in codes: of alpha, and of vectors or, if only these count, directions. Sets positions, 0 to
-// 15, to the nearest on the line.
-float errorOf(const Ends& ends, const Texels& t, Values& positions)
-{
-    Color from{}, step{};
-    float length = 1e-9f; // squared
-    for (std::size_t c = 0; c < 4; ++c) {
-        from[c] = ends.code(0, c);
-        step[c] = ends.code(1, c) - from[c];
-        length += step[c] * step[c];
-    }
-    Four sum{};
-    for (std::size_t i = 0; i < 4; ++i) {
-        positions[i] = rounded(minOf(maxOf(nearestPosition(t, i, from, step, length), kZero), kZero + 1) * 15);
-        // As a decoder interpolates: with weights in 64ths, rounded to whole codes.
-        const Four weight = rounded(positions[i] * (64.0f / 15)) * (1.0f / 64);
-        std::array<Four, 4> read;
-        for (std::size_t c = 0; c < 4; ++c)
-            read[c] = rounded(from[c] + step[c] * weight);
-        const Four alpha = read[3] - t.codes[3][i];
-        sum += alpha * alpha;
-        Four vectorError = kZero, square = kZero, along = kZero;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Four v = read[c] - t.zero, difference = read[c] - t.codes[c][i];
-            vectorError += difference * difference;
-            square += v * v;
-            along += t.n[c][i] * v;
-        }
-        if (!t.directions) {
-            sum += vectorError;
-            continue;
-        }
-        // Squared distance of unit vectors, in codes: length 1 is 127 codes.
-        constexpr float kUnit = 127 * 127;
-        sum += 2 * kUnit * (1 - along / rootOf(maxOf(square, kZero + 1)));
-    }
-    return sumOf(sum);
-}
-
-struct Line {
-    std::array<Color, 2> ends{};
+// Sums of squared distances of points: from the line that fits best, and along it from the mean.
+struct Scatter {
+    Four off, along;
 };
 
-// The line through the mean along the principal axis, clipped to the range of the texels.
-Line principal(const Texels& t)
+Scatter scatterOf(const Moments& m)
 {
-    Color mean{}, axis{};
-    for (std::size_t c = 0; c < 4; ++c) {
-        const Values& v = t.codes[c];
-        mean[c] = sumOf(v[0] + v[1] + v[2] + v[3]) / 16;
-        axis[c] = maxOf(v) - minOf(v);
-    }
-    std::array<Color, 4> covariance{};
-    for (std::size_t a = 0; a < 4; ++a)
-        for (std::size_t b = a; b < 4; ++b) {
-            Four sum{};
-            for (std::size_t i = 0; i < 4; ++i)
-                sum += (t.codes[a][i] - mean[a]) * (t.codes[b][i] - mean[b]);
-            covariance[a][b] = covariance[b][a] = sumOf(sum);
-        }
-    std::size_t widest = 0; // its covariances give the signs, since the box's diagonal may be perpendicular to the axis
-    for (std::size_t c = 1; c < 4; ++c)
-        widest = covariance[c][c] > covariance[widest][widest] ? c : widest;
-    for (std::size_t c = 1; c < 4; ++c)
-        axis[c] = std::signbit(covariance[widest][c]) != std::signbit(covariance[widest][0]) ? -axis[c] : axis[c];
-    for (int round = 0; round < 6; ++round) {
-        Color next{};
-        float largest = 0;
-        for (std::size_t a = 0; a < 4; ++a) {
-            for (std::size_t b = 0; b < 4; ++b)
-                next[a] += covariance[a][b] * axis[b];
-            largest = std::max(largest, std::abs(next[a]));
-        }
-        if (!(largest > 1e-6f))
-            break;
-        for (std::size_t c = 0; c < 4; ++c)
-            axis[c] = next[c] / largest;
-    }
-    float square = 0;
-    for (const float w : axis)
-        square += w * w;
-    Line line{{mean, mean}};
-    if (!(square > 0))
-        return line;
-    Four first = kZero + 1e9f, last = kZero - 1e9f;
-    for (std::size_t i = 0; i < 4; ++i) {
-        Four position = kZero;
-        for (std::size_t c = 0; c < 4; ++c)
-            position += (t.codes[c][i] - mean[c]) * (axis[c] / square);
-        first = minOf(first, position);
-        last = maxOf(last, position);
-    }
-    for (std::size_t c = 0; c < 4; ++c) {
-        line.ends[0][c] += axis[c] * minOf(first);
-        line.ends[1][c] += axis[c] * maxOf(last);
-    }
-    return line;
+    const Four inverse = 1 / maxOf(m.w, kZero + 1e-6f);
+    const Four xx = m.xx - m.x * m.x * inverse, xy = m.xy - m.x * m.y * inverse, yy = m.yy - m.y * m.y * inverse;
+    const Four middle = (xx + yy) * 0.5f, half = (xx - yy) * 0.5f, root = rootOf(half * half + xy * xy);
+    return {maxOf(middle - root, kZero), middle + root};
 }
 
-// The ends that fit best if every texel keeps its position.
-Line leastSquares(const Line& from, const Texels& t, const Values& positions)
+// The error that rounding of values to n levels adds is as if each were off by a part of 1 / (n - 1).
+float fineness(int indexBits) { return 1 / float(((1 << indexBits) - 1) * ((1 << indexBits) - 1)); }
+
+// What rounding of the ends adds. The choice of lengths reduces it.
+float roundingOf(int bits)
 {
-    Four aa4{}, ab4{}, bb4{};
-    Values weights{};
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Four b = positions[i] * (1.0f / 15), a = 1 - b;
-        weights[i] = b;
-        aa4 += a * a;
-        ab4 += a * b;
-        bb4 += b * b;
-    }
-    const float aa = sumOf(aa4), ab = sumOf(ab4), bb = sumOf(bb4), determinant = aa * bb - ab * ab;
-    if (!(determinant > 1e-4f * aa * bb))
-        return from;
-    Line to;
-    for (std::size_t c = 0; c < 4; ++c) {
-        Four av4{}, bv4{};
-        for (std::size_t i = 0; i < 4; ++i) {
-            av4 += (1 - weights[i]) * t.codes[c][i];
-            bv4 += weights[i] * t.codes[c][i];
-        }
-        const float av = sumOf(av4), bv = sumOf(bv4);
-        to.ends[0][c] = (bb * av - ab * bv) / determinant;
-        to.ends[1][c] = (aa * bv - ab * av) / determinant;
-    }
-    return to;
+    const float step = float(256 >> std::min(8, bits));
+    return 16 * step * step / 24;
 }
 
-Ends stored(const Line& line, int low0, int low1)
-{
-    Ends ends;
-    ends.low = {low0, low1};
-    for (std::size_t e = 0; e < 2; ++e)
-        for (std::size_t c = 0; c < 4; ++c)
-            ends.high[e][c] = std::clamp(int(std::floor((line.ends[e][c] - float(ends.low[e])) / 2 + 0.5f)), 0, 127);
-    return ends;
-}
-
-struct Fit {
-    Ends ends;
-    Values positions{};
-    float error = 1e30f;
-
-    void offer(const Ends& to, const Texels& t)
-    {
-        Values there{};
-        if (const float e = errorOf(to, t, there); e < error) {
-            ends = to;
-            positions = there;
-            error = e;
-        }
-    }
+// For each texel, whether it is in the second subset of two, or in the second and third of three: four partitions at
+// once, of three subsets only those of mode 0.
+struct Masks {
+    std::array<std::array<Four, 16>, 16> two{};
+    std::array<std::array<std::array<Four, 16>, 4>, 2> three{};
 };
 
-// Coordinate descent: changes each value by one while that reduces the error, in at most kRounds rounds.
-void descend(Fit& fit, const Texels& t)
+Masks makeMasks()
 {
-    constexpr int kRounds = 3;
-    for (int round = 0; round < kRounds; ++round) {
-        const float before = fit.error;
-        for (std::size_t e = 0; e < 2; ++e)
-            for (std::size_t c = 0; c < (t.opaque ? 3u : 4u); ++c)
-                for (const int by : {-1, 1}) {
-                    Ends to = fit.ends;
-                    to.high[e][c] += by;
-                    if (to.high[e][c] >= 0 && to.high[e][c] <= 127)
-                        fit.offer(to, t);
-                }
-        if (!(fit.error < before))
-            break;
-    }
+    Masks m;
+    for (int p = 0; p < 64; ++p)
+        for (int i = 0; i < 16; ++i) {
+            m.two[std::size_t(p / 4)][std::size_t(i)][p % 4] = float(subsetOf(2, p, i));
+            for (int s = 0; s < 2 && p < 16; ++s)
+                m.three[std::size_t(s)][std::size_t(p / 4)][std::size_t(i)][p % 4] = subsetOf(3, p, i) == s + 1;
+        }
+    return m;
 }
 
-Fit fitted(const Texels& t)
-{
-    Line line = principal(t);
-    Fit fit;
-    for (int round = 0; round < 3; ++round) {
-        Fit here;
-        for (int k = t.opaque ? 3 : 0; k < 4; ++k) // 255 has the lowest bit set
-            here.offer(stored(line, k & 1, k >> 1), t);
-        line = leastSquares(line, t, here.positions);
-        if (here.error < fit.error)
-            fit = here;
-    }
-    descend(fit, t);
-    return fit;
-}
-
-// Fits vectors and, if only directions count, refines this fit for directions.
-Fit fittedFrom(Texels t)
-{
-    const bool directions = t.directions;
-    t.directions = false;
-    Fit fit = fitted(t);
-    if (!directions)
-        return fit;
-    t.directions = true;
-    fit.error = errorOf(fit.ends, t, fit.positions);
-    descend(fit, t);
-    return fit;
-}
-
-// Writes bits, lowest first.
-class Bits {
-public:
-    explicit Bits(std::byte* to) : to_(to) { std::fill(to, to + 16, std::byte(0)); }
-    void put(unsigned value, unsigned count)
-    {
-        for (unsigned i = 0; i < count; ++i, ++at_)
-            to_[at_ / 8] |= std::byte((value >> i & 1) << at_ % 8);
-    }
-
-private:
-    std::byte* to_;
-    std::size_t at_ = 0;
+// A mode with a partition or, of modes 4 and 5, with the channel by itself and the selection of its indices.
+struct Candidate {
+    float estimate = 0; // of the error
+    int mode = 6, partition = 0, scalar = 0, selection = 0;
 };
 
-void write(const Fit& fit, std::byte* to)
+// Points of a plane, each in all four lanes.
+struct Points {
+    std::array<Four, 16> w, x, y;
+};
+
+Moments momentsOf(const Points& p, const std::array<Four, 16>& mask)
 {
-    Values positions = fit.positions;
-    // The highest bit of the first index is not stored. If it is set, the ends are swapped.
-    const bool swapped = at(positions, 0) > 7;
-    const std::size_t first = swapped ? 1 : 0;
-    Bits bits(to);
-    bits.put(0x40, 7); // mode 6
-    for (std::size_t c = 0; c < 4; ++c)
-        for (const std::size_t e : {first, 1 - first})
-            bits.put(unsigned(fit.ends.high[e][c]), 7);
-    for (const std::size_t e : {first, 1 - first})
-        bits.put(unsigned(fit.ends.low[e]), 1);
+    Moments m;
     for (std::size_t i = 0; i < 16; ++i) {
-        const int position = int(at(positions, i));
-        bits.put(unsigned(swapped ? 15 - position : position), i == 0 ? 3 : 4);
+        const Four w = p.w[i] * mask[i];
+        m.w += w;
+        m.x += w * p.x[i];
+        m.y += w * p.y[i];
+        m.xx += w * (p.x[i] * p.x[i]);
+        m.xy += w * (p.x[i] * p.y[i]);
+        m.yy += w * (p.y[i] * p.y[i]);
     }
+    return m;
+}
+
+// The plane is that of Texels::aim, its origin the mean. Lengths and alpha do not count.
+Points pointsOf(const Texels& t)
+{
+    std::array<float, 3> mean{}, first{}, second{};
+    float length = 1e-9f;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Values& n = t.n[c];
+        mean[c] = sumOf((n[0] + n[2]) + (n[1] + n[3]));
+        length += mean[c] * mean[c];
+    }
+    length = std::sqrt(length);
+    for (float& m : mean)
+        m /= length;
+    const std::size_t least = std::abs(mean[0]) < std::abs(mean[1]) ? 0 : 1;
+    float square = 1e-9f;
+    for (std::size_t c = 0; c < 3; ++c) {
+        first[c] = (c == least) - mean[least] * mean[c];
+        square += first[c] * first[c];
+    }
+    for (float& f : first)
+        f /= std::sqrt(square);
+    for (std::size_t c = 0; c < 3; ++c)
+        second[c] = mean[(c + 1) % 3] * first[(c + 2) % 3] - mean[(c + 2) % 3] * first[(c + 1) % 3];
+    Points p;
+    for (std::size_t i = 0; i < 4; ++i) {
+        Four x = kZero, y = kZero;
+        for (std::size_t c = 0; c < 3; ++c) {
+            x += (t.aim[c][i] - t.zero) * first[c];
+            y += (t.aim[c][i] - t.zero) * second[c];
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            p.w[4 * i + k] = kZero + t.weight[i][int(k)];
+            p.x[4 * i + k] = kZero + x[int(k)];
+            p.y[4 * i + k] = kZero + y[int(k)];
+        }
+    }
+    return p;
+}
+
+struct Candidates {
+    std::array<Candidate, 1 + 64 + 64 + 16> list;
+    std::size_t count = 0;
+    void add(const Candidate& c) { list[count++] = c; }
+};
+
+// Modes 0, 1, 3 and 6 or, if alpha varies, 6 and 7.
+void addLines(const Texels& t, Candidates& to)
+{
+    static const Masks masks = makeMasks();
+    const Points points = pointsOf(t);
+    std::array<Four, 16> all;
+    all.fill(kZero + 1);
+    const Moments whole = momentsOf(points, all);
+    const auto add = [&](int mode, const Four& off, const Four& along, int first, int count) {
+        const Mode& m = kModes[std::size_t(mode)];
+        const Four estimate = off + along * fineness(m.indexBits) + roundingOf(m.colorBits + m.lowBits());
+        for (int k = 0; k < count; ++k)
+            to.add({estimate[k], mode, first + k, 0, 0});
+    };
+    const Scatter one = scatterOf(whole);
+    add(6, one.off, one.along, 0, 1);
+    for (int g = 0; g < 16; ++g) {
+        const Moments second = momentsOf(points, masks.two[std::size_t(g)]);
+        const Scatter a = scatterOf(whole - second), b = scatterOf(second);
+        if (t.opaque) {
+            add(1, a.off + b.off, a.along + b.along, 4 * g, 4);
+            add(3, a.off + b.off, a.along + b.along, 4 * g, 4);
+        } else {
+            add(7, a.off + b.off, a.along + b.along, 4 * g, 4);
+        }
+    }
+    for (int g = 0; g < 4 && t.opaque; ++g) {
+        const Moments second = momentsOf(points, masks.three[0][std::size_t(g)]),
+                      third = momentsOf(points, masks.three[1][std::size_t(g)]);
+        const Scatter a = scatterOf(whole - second - third), b = scatterOf(second), c = scatterOf(third);
+        add(0, a.off + b.off + c.off, a.along + b.along + c.along, 4 * g, 4);
+    }
+}
+
+constexpr int kAlpha = 3; // as Candidate::scalar
+
+bool hasPlanes(const Candidate& c) { return c.mode == 4 || c.mode == 5; }
+
+PlanesCode planesCode(const Candidate& c)
+{
+    const Mode& m = kModes[std::size_t(c.mode)];
+    PlanesCode code{c.scalar, m.colorBits, m.alphaBits, m.indexBits, m.secondBits};
+    if (c.selection != 0)
+        std::swap(code.lineIndexBits, code.scalarIndexBits);
+    return code;
+}
+
+float varianceOf(const Values& values, const Values& weights)
+{
+    Four w4{}, x4{}, xx4{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        w4 += weights[i];
+        x4 += weights[i] * values[i];
+        xx4 += weights[i] * values[i] * values[i];
+    }
+    const float x = sumOf(x4);
+    return std::max(sumOf(xx4) - x * x / sumOf(w4), 0.0f) * (127 * 127);
+}
+
+// Modes 4 and 5. Of texels that are not opaque, alpha is the scalar.
+void addPlanes(const Texels& t, const std::array<PlanePoints, 3>& points, Candidates& to)
+{
+    constexpr std::array<std::pair<int, int>, 3> kModesAndSelections{{{5, 0}, {4, 0}, {4, 1}}};
+    for (const auto& [mode, selection] : kModesAndSelections) {
+        if (!t.opaque)
+            to.add({0, mode, 0, kAlpha, selection});
+        for (int scalar = 0; scalar < kAlpha && t.directions && t.opaque; ++scalar) {
+            const PlanePoints& p = points[std::size_t(scalar)];
+            if (p.along[0] == 0 && p.along[1] == 0)
+                continue;
+            Candidate c{0, mode, 0, scalar, selection};
+            const PlanesCode code = planesCode(c);
+            c.estimate = varianceOf(p.scalar, p.weight) * fineness(code.scalarIndexBits)
+                + varianceOf(p.across, p.weight) * fineness(code.lineIndexBits) + roundingOf(code.colorBits);
+            to.add(c);
+        }
+    }
+}
+
+// ---- fits ----------------------------------------------------------------------------------
+
+struct Result {
+    Candidate candidate;
+    std::array<Fit, 3> lines; // by subset; of modes 4 and 5 without a rotation: red, green and blue, then alpha
+    PlanesFit planes;         // of modes 4 and 5 with a rotation
+    float error = 1e30f;
+};
+
+LineCode lineCode(const Candidate& c, const Texels& t)
+{
+    const Mode& m = kModes[std::size_t(c.mode)];
+    if (hasPlanes(c))
+        return {m.colorBits, 0, false, false, planesCode(c).lineIndexBits, 3};
+    return {m.colorBits + m.lowBits(),
+            m.alphaBits > 0 ? m.alphaBits + m.lowBits() : 0,
+            m.lowBits() > 0,
+            m.subsetBits > 0,
+            m.indexBits,
+            m.alphaBits > 0 && !t.opaque ? 4 : 3};
+}
+
+Values maskOf(const Candidate& c, int subset)
+{
+    Values mask;
+    for (std::size_t i = 0; i < 16; ++i)
+        at(mask, i) = subsetOf(kModes[std::size_t(c.mode)].subsets, c.partition, int(i)) == subset;
+    return mask;
+}
+
+// Stops when the error reaches `limit`.
+Result fitted(const Texels& t, const std::array<PlanePoints, 3>& points, const Candidate& c, float limit)
+{
+    Result r;
+    r.candidate = c;
+    if (hasPlanes(c) && c.scalar < kAlpha) {
+        r.planes = fitPlanes(t, points[std::size_t(c.scalar)], planesCode(c));
+        r.error = r.planes.error;
+        return r;
+    }
+    r.error = 0;
+    for (int s = 0; s < kModes[std::size_t(c.mode)].subsets && r.error < limit; ++s) {
+        r.lines[std::size_t(s)] = fitLine(t, lineCode(c, t), maskOf(c, s));
+        r.error += r.lines[std::size_t(s)].error;
+    }
+    if (hasPlanes(c)) {
+        r.lines[1] = fitAlpha(t, planesCode(c).scalarBits, planesCode(c).scalarIndexBits);
+        r.error += r.lines[1].error;
+    }
+    return r;
+}
+
+void refine(Result& r, const Texels& t)
+{
+    constexpr int kRefinements = 2;
+    const Candidate& c = r.candidate;
+    if (hasPlanes(c) && c.scalar < kAlpha) {
+        refinePlanes(r.planes, t, planesCode(c), kRefinements);
+        r.error = r.planes.error;
+        return;
+    }
+    for (int s = 0; s < kModes[std::size_t(c.mode)].subsets; ++s) {
+        Fit& line = r.lines[std::size_t(s)];
+        r.error -= line.error;
+        refineLine(line, t, lineCode(c, t), maskOf(c, s), kRefinements);
+        r.error += line.error;
+    }
+}
+
+Block blockOf(const Result& r)
+{
+    const Candidate& c = r.candidate;
+    const int subsets = kModes[std::size_t(c.mode)].subsets;
+    Block b;
+    b.mode = c.mode;
+    b.partition = c.partition;
+    if (!hasPlanes(c)) {
+        for (std::size_t s = 0; s < std::size_t(subsets); ++s)
+            b.ends[s] = r.lines[s].ends;
+        for (std::size_t i = 0; i < 16; ++i) {
+            const auto s = std::size_t(subsetOf(subsets, c.partition, int(i)));
+            b.indices[i] = int(at(r.lines[s].indices, i));
+        }
+        return b;
+    }
+    b.rotation = (c.scalar + 1) % 4;
+    b.selection = c.selection;
+    const bool rotated = c.scalar < kAlpha;
+    b.ends[0] = rotated ? r.planes.ends : r.lines[0].ends;
+    for (std::size_t e = 0; e < 2 && !rotated; ++e)
+        b.ends[0][e][3] = r.lines[1].ends[e][3];
+    for (std::size_t i = 0; i < 16; ++i) {
+        b.indices[i] = int(at(rotated ? r.planes.indices : r.lines[0].indices, i));
+        b.second[i] = int(at(rotated ? r.planes.scalarIndices : r.lines[1].indices, i));
+        if (c.selection != 0)
+            std::swap(b.indices[i], b.second[i]);
+    }
+    return b;
+}
+
+void encode(const Texels& t, std::byte* to)
+{
+    // Tries with lines and planes each, and how many of the best are refined: each of these numbers plus two reduces
+    // the error by less than 1 %.
+    constexpr std::size_t kLineTries = 6, kPlaneTries = 4, kRefined = 3;
+    constexpr float kExact = 0.1f; // 0.04 degrees: no more is tried
+    Candidates lines, planes;
+    addLines(t, lines);
+    std::array<PlanePoints, 3> points;
+    for (int s = 0; s < kAlpha && t.directions && t.opaque; ++s)
+        points[std::size_t(s)] = planePoints(t, s);
+    addPlanes(t, points, planes);
+
+    std::array<Result, kRefined> best; // from the smallest error
+    const auto tryBest = [&](Candidates& of, std::size_t tries) {
+        const std::size_t count = std::min(of.count, tries);
+        std::partial_sort(of.list.begin(), of.list.begin() + std::ptrdiff_t(count),
+                          of.list.begin() + std::ptrdiff_t(of.count),
+                          [](const Candidate& a, const Candidate& b) { return a.estimate < b.estimate; });
+        for (std::size_t k = 0; k < count && best[0].error > kExact; ++k) {
+            Result r = fitted(t, points, of.list[k], best.back().error);
+            for (Result& b : best)
+                if (r.error < b.error)
+                    std::swap(r, b);
+        }
+    };
+    tryBest(lines, kLineTries);
+    tryBest(planes, kPlaneTries);
+    const Result* least = best.data();
+    for (Result& r : best) {
+        if (least->error > kExact && r.error < 1e29f)
+            refine(r, t);
+        if (r.error < least->error)
+            least = &r;
+    }
+    write(blockOf(*least), to);
 }
 
 } // namespace
@@ -324,7 +404,7 @@ void write(const Fit& fit, std::byte* to)
 std::vector<std::byte> encodeBc7(const Image& map, const CodeScale& scale, bool lengths)
 {
     return encodeBlocks(map, 16, [&](int left, int top, std::byte* to) {
-        bc7::write(bc7::fittedFrom(bc7::texelsOf(map, left, top, scale, lengths)), to);
+        bc7::encode(bc7::texelsOf(map, left, top, scale, lengths), to);
     });
 }
 

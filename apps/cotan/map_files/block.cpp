@@ -23,16 +23,12 @@ Four positionOf(Four value, float low, float inverseStep)
     return rounded(minOf(maxOf((value - low) * inverseStep, kZero), kAll));
 }
 
-// Weighted sum of squared errors.
-float errorOf(const Ends& ends, const Values& values, const Values& weights)
+// The position below, at most 6.
+template<class V> [[gnu::always_inline]] inline V positionBelow(V value, float low, float inverseStep)
 {
-    const float low = float(ends.low), step = float(ends.high - ends.low) / 7, inverse = 1 / step;
-    Four sum{};
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Four off = values[i] - low - positionOf(values[i], low, inverse) * step;
-        sum += weights[i] * off * off;
-    }
-    return sumOf(sum);
+    const V zero{}, position = (value - low) * inverseStep, atLeast = position > zero ? position : zero;
+    const V clamped = atLeast < zero + 6 ? atLeast : zero + 6;
+    return __builtin_convertvector(__builtin_convertvector(clamped, typename LaneInts<V>::Type), V);
 }
 
 bool valid(const Ends& ends) { return ends.low >= 0 && ends.high <= 255 && ends.high > ends.low; }
@@ -68,24 +64,73 @@ Ends leastSquares(const Ends& from, const Values& values, const Values& weights)
     return valid(to) ? to : from;
 }
 
-constexpr std::array<Ends, 6> kMoves{{{-1, 1}, {0, 1}, {-1, 0}, {1, 0}, {0, -1}, {1, -1}}};
+// The ends themselves, then with one or both of them moved by one.
+constexpr CandidateValues kLowMoves{0, 1, 1, 0, 0, -1, -1, 1}, kHighMoves{0, -1, 0, -1, 1, 0, 1, 1};
+
+Ends moved(const Ends& ends, std::size_t move)
+{
+    return {ends.high + int(kHighMoves[move]), ends.low + int(kLowMoves[move])};
+}
+
+// Candidates for the ends of a channel: those that are not valid are the ends themselves.
+template<class V> struct EndsLanes {
+    V low, step, inverse;
+
+    [[gnu::always_inline]] EndsLanes(const Ends& around, std::size_t first)
+    {
+        V high;
+        loadLanes(low, kLowMoves, first);
+        loadLanes(high, kHighMoves, first);
+        const V zero{}, aroundLow = zero + float(around.low), aroundHigh = zero + float(around.high);
+        low += aroundLow;
+        high += aroundHigh;
+        const V inside =
+            (low < zero ? zero : zero + 1) * (high > zero + 255 ? zero : zero + 1) * (high > low ? zero + 1 : zero);
+        low = inside > zero ? low : aroundLow;
+        high = inside > zero ? high : aroundHigh;
+        step = (high - low) * (1.0f / 7);
+        inverse = 1 / step;
+    }
+};
+
+// Weighted sums of squared errors.
+struct EndsErrors {
+    const Ends& around;
+    const Values& values;
+    const Values& weights;
+    CandidateValues& errors;
+
+    template<class V> [[gnu::always_inline]] void run() const
+    {
+        for (std::size_t first = 0; first < kCandidates; first += sizeof(V) / sizeof(float)) {
+            const EndsLanes<V> ends(around, first);
+            const auto& [low, step, inverse] = ends;
+            V sum{};
+            for (std::size_t i = 0; i < 16; ++i) {
+                constexpr float kNoFractions = 12582912; // as rounded()
+                const V above = values[i / 4][i % 4] - low, zero{};
+                V position = above * inverse;
+                position = position > zero ? position : zero;
+                position = (position < zero + 7 ? position : zero + 7) + kNoFractions - kNoFractions;
+                const V off = above - position * step;
+                sum += weights[i / 4][i % 4] * (off * off);
+            }
+            std::memcpy(errors.data() + first, &sum, sizeof sum);
+        }
+    }
+};
 
 // Changes the ends by one while that reduces the error, in at most kRounds rounds.
-void descend(Ends& best, float& error, const Values& values, const Values& weights)
+void descend(Ends& best, const Values& values, const Values& weights)
 {
     constexpr int kRounds = 3;
-    for (int round = 0, moved = 1; moved != 0 && round < kRounds; ++round) {
-        moved = 0;
-        for (const Ends& by : kMoves) {
-            const Ends to{best.high + by.high, best.low + by.low};
-            if (!valid(to))
-                continue;
-            if (const float there = errorOf(to, values, weights); there < error) {
-                best = to;
-                error = there;
-                moved = 1;
-            }
-        }
+    for (int round = 0; round < kRounds; ++round) {
+        CandidateValues errors;
+        runLanes(EndsErrors{best, values, weights, errors});
+        const std::size_t least = leastOf(errors);
+        if (least == 0)
+            return;
+        best = moved(best, least);
     }
 }
 
@@ -98,21 +143,17 @@ Ends fit(const Values& values, const Values& weights)
     if (!valid(best))
         best = aroundOne((low + high) / 2);
     best = leastSquares(best, values, weights);
-    float error = errorOf(best, values, weights);
-    descend(best, error, values, weights);
+    descend(best, values, weights);
     return best;
 }
 
-using Positions = std::array<int, 16>;
-
 // Writes a BC4 block: the ends, then a 3-bit index per texel: 0 is the first end, 1 the second, 2 to 7 between them.
-void put(const Ends& ends, const Positions& positions, std::byte* to)
+void put(const Ends& ends, const Values& positions, std::byte* to)
 {
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < 16; ++i) {
-        const int position = 7 - positions[i];
-        const std::uint64_t code = position == 0 ? 0u : position == 7 ? 1u : std::uint64_t(position + 1);
-        bits |= code << 3 * i;
+    for (std::size_t row = 0; row < 4; ++row) {
+        const Four code = positions[row] == 7.0f ? kZero : positions[row] == 0.0f ? kZero + 1 : 8 - positions[row];
+        bits |= std::uint64_t(sumOf(code * Four{1, 8, 64, 512})) << 12 * row;
     }
     to[0] = std::byte(ends.high);
     to[1] = std::byte(ends.low);
@@ -120,37 +161,35 @@ void put(const Ends& ends, const Positions& positions, std::byte* to)
         to[2 + i] = std::byte(bits >> 8 * i & 0xff);
 }
 
-// Chooses for each texel, of the four pairs of positions around it, the one with the smallest angle. Returns the sum of
-// squared angles.
-float choosePositions(const NormalTexels& t, const Ends& x, const Ends& y, Positions& positionsX, Positions& positionsY)
-{
-    const float stepX = float(x.high - x.low) / 7, stepY = float(y.high - y.low) / 7;
-    const float inverseX = 1 / stepX, inverseY = 1 / stepY;
-    Four sum{};
-    const auto below = [](Four value, float low, float inverse) {
-        return __builtin_convertvector(minOf(maxOf((value - low) * inverse, kZero), kZero + 6), FourInts);
-    };
-    for (std::size_t i = 0; i < 4; ++i) {
-        const FourInts px = below(t.x[i], float(x.low), inverseX), py = below(t.y[i], float(y.low), inverseY);
-        const Four dx = float(x.low) + __builtin_convertvector(px, Four) * stepX - t.x[i];
-        const Four dy = float(y.low) + __builtin_convertvector(py, Four) * stepY - t.y[i];
-        Four smallest = kZero + 1e30f;
-        FourInts rightX{}, rightY{};
-        for (int k = 0; k < 4; ++k) {
-            const Four ex = dx + (k & 1 ? stepX : 0), ey = dy + (k & 2 ? stepY : 0);
-            const Four along = t.u[i] * ex + t.v[i] * ey, there = ex * ex + ey * ey + along * along;
-            const FourInts better = there < smallest;
-            smallest = better ? there : smallest;
-            rightX = better ? FourInts{} + (k & 1) : rightX;
-            rightY = better ? FourInts{} + (k >> 1) : rightY;
+// Chooses for each texel, of the four pairs of positions around it, the one with the smallest angle.
+struct ChoosePositions {
+    const NormalTexels& t;
+    const Ends &x, &y;
+    Values &positionsX, &positionsY;
+
+    template<class V> [[gnu::always_inline]] void run() const
+    {
+        const float stepX = float(x.high - x.low) / 7, stepY = float(y.high - y.low) / 7;
+        const float lowX = float(x.low), lowY = float(y.low), inverseX = 1 / stepX, inverseY = 1 / stepY;
+        for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
+            const V zero{}, valueX = lanesOf<V>(t.x, first), valueY = lanesOf<V>(t.y, first);
+            const V u = lanesOf<V>(t.u, first), v = lanesOf<V>(t.v, first);
+            const V belowX = positionBelow(valueX, lowX, inverseX), belowY = positionBelow(valueY, lowY, inverseY);
+            const V x0 = lowX + belowX * stepX - valueX, x1 = x0 + stepX;
+            const V y0 = lowY + belowY * stepY - valueY, y1 = y0 + stepY;
+            const auto error = [&](V ex, V ey) __attribute__((always_inline))
+            {
+                const V along = u * ex + v * ey;
+                return ex * ex + ey * ey + along * along;
+            };
+            const V e00 = error(x0, y0), e01 = error(x0, y1), e10 = error(x1, y0), e11 = error(x1, y1);
+            const V least0 = e01 < e00 ? e01 : e00, least1 = e11 < e10 ? e11 : e10;
+            const V up0 = e01 < e00 ? zero + 1 : zero, up1 = e11 < e10 ? zero + 1 : zero;
+            storeLanes(positionsX, first, belowX + (least1 < least0 ? zero + 1 : zero));
+            storeLanes(positionsY, first, belowY + (least1 < least0 ? up1 : up0));
         }
-        sum += smallest;
-        const FourInts atX = px + rightX, atY = py + rightY;
-        std::memcpy(positionsX.data() + 4 * i, &atX, sizeof atX);
-        std::memcpy(positionsY.data() + 4 * i, &atY, sizeof atY);
     }
-    return sumOf(sum);
-}
+};
 
 // Whether errors of x and y interact noticeably: for tilts of about 30 degrees and more.
 bool steep(const NormalTexels& t)
@@ -162,46 +201,77 @@ bool steep(const NormalTexels& t)
     return maxOf(square) > kFrom;
 }
 
-// Changes each end of both channels by one if that reduces the angles.
-void refineTogether(const NormalTexels& t, Ends& x, Ends& y, Positions& positionsX, Positions& positionsY)
-{
-    float error = choosePositions(t, x, y, positionsX, positionsY);
-    for (Ends* const ends : {&x, &y})
-        for (const Ends& by : kMoves) {
-            const Ends before = *ends;
-            *ends = {before.high + by.high, before.low + by.low};
-            Positions tryX, tryY;
-            const float there = valid(*ends) ? choosePositions(t, x, y, tryX, tryY) : error;
-            if (there < error) {
-                error = there;
-                positionsX = tryX;
-                positionsY = tryY;
-            } else {
-                *ends = before;
-            }
+// Sums of squared angles: candidates for the ends of one channel, with given ends of the other one.
+struct AngleErrors {
+    const Ends &around, &other;
+    const Values &values, &slopes;           // of the channel of the candidates: x or y, u or v
+    const Values &otherValues, &otherSlopes; // of the other one
+    CandidateValues& errors;
+
+    template<class V> [[gnu::always_inline]] void run() const
+    {
+        const float otherStep = float(other.high - other.low) / 7, otherInverse = 1 / otherStep;
+        Values near, far; // errors of the other channel at the positions around a value
+        for (std::size_t i = 0; i < 4; ++i) {
+            near[i] = float(other.low) - otherValues[i]
+                + positionBelow(otherValues[i], float(other.low), otherInverse) * otherStep;
+            far[i] = near[i] + otherStep;
         }
+        for (std::size_t first = 0; first < kCandidates; first += sizeof(V) / sizeof(float)) {
+            const EndsLanes<V> ends(around, first);
+            const auto& [low, step, inverse] = ends;
+            V sum{};
+            for (std::size_t i = 0; i < 16; ++i) {
+                constexpr float kNoFractions = 12582912; // as rounded()
+                const V zero{}, below = low - values[i / 4][i % 4];
+                V position = below * -inverse - 0.5f;
+                position = position > zero ? position : zero;
+                position = (position < zero + 6 ? position : zero + 6) + kNoFractions - kNoFractions;
+                const V e0 = below + position * step, e1 = e0 + step;
+                const float n = near[i / 4][i % 4], f = far[i / 4][i % 4], slope = slopes[i / 4][i % 4];
+                const float alongN = otherSlopes[i / 4][i % 4] * n, alongF = otherSlopes[i / 4][i % 4] * f;
+                const V along0 = slope * e0, along1 = slope * e1;
+                const V a = (along0 + alongN) * (along0 + alongN) + n * n,
+                        b = (along0 + alongF) * (along0 + alongF) + f * f;
+                const V c = (along1 + alongN) * (along1 + alongN) + n * n,
+                        d = (along1 + alongF) * (along1 + alongF) + f * f;
+                const V near0 = (a < b ? a : b) + e0 * e0, near1 = (c < d ? c : d) + e1 * e1;
+                sum += near0 < near1 ? near0 : near1;
+            }
+            std::memcpy(errors.data() + first, &sum, sizeof sum);
+        }
+    }
+};
+
+// Changes the ends of each channel by one if that reduces the angles.
+void refineTogether(const NormalTexels& t, Ends& x, Ends& y)
+{
+    CandidateValues errors;
+    runLanes(AngleErrors{x, y, t.x, t.u, t.y, t.v, errors});
+    x = moved(x, leastOf(errors));
+    runLanes(AngleErrors{y, x, t.y, t.v, t.x, t.u, errors});
+    y = moved(y, leastOf(errors));
 }
 
 void encodeNormals(const NormalTexels& t, std::byte* to)
 {
     Ends x = fit(t.x, t.weightX), y = fit(t.y, t.weightY);
-    Positions positionsX{}, positionsY{};
     if (steep(t))
-        refineTogether(t, x, y, positionsX, positionsY);
-    else
-        choosePositions(t, x, y, positionsX, positionsY);
+        refineTogether(t, x, y);
+    Values positionsX{}, positionsY{};
+    runLanes(ChoosePositions{t, x, y, positionsX, positionsY});
     put(x, positionsX, to);
     put(y, positionsY, to + 8);
 }
 
 } // namespace
 
-void encodeAlpha(Values& values, const Values& weights, std::byte* to)
+void encodeAlpha(const Values& values, const Values& weights, std::byte* to)
 {
     const Ends ends = fit(values, weights);
-    Positions positions{};
-    for (std::size_t i = 0; i < 16; ++i)
-        positions[i] = int(positionOf(kZero + at(values, i), float(ends.low), 7 / float(ends.high - ends.low))[0]);
+    Values positions;
+    for (std::size_t i = 0; i < 4; ++i)
+        positions[i] = positionOf(values[i], float(ends.low), 7 / float(ends.high - ends.low));
     put(ends, positions, to);
 }
 

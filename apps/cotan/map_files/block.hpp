@@ -19,9 +19,9 @@ struct CodeScale {
 // bytes do not depend on the number of threads.
 std::vector<std::byte> encodeBc5(const Image& map, const CodeScale& scale);
 
-// Encodes x, y and z of unit vectors, and alpha, as BC7: 16 bytes per block, mode 6 only. Minimises errors of angles
-// and alpha or, with `lengths`, of vectors and alpha. map: float32; red, green and blue are (n + 1) / 2. Blocks whose
-// alpha is 1 keep it exactly. The bytes do not depend on the number of threads.
+// Encodes x, y and z of unit vectors, and alpha, as BC7: 16 bytes per block, all modes but 2. Minimises errors of
+// angles and alpha or, with `lengths`, of vectors and alpha. map: float32; red, green and blue are (n + 1) / 2. Blocks
+// whose alpha is 1 keep it exactly. The bytes do not depend on the number of threads.
 std::vector<std::byte> encodeBc7(const Image& map, const CodeScale& scale, bool lengths = false);
 
 // The same as BC3 with x in alpha and y in green, "DXT5nm": red and blue are 1. Green has 6 bits and four steps, so

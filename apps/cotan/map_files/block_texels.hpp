@@ -6,14 +6,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "block.hpp"
 #include "core/loops.hpp"
 #include "cotan/scene.hpp"
 
-// GCC notes that passing these vectors depends on the target's registers. They are never passed between object files.
-#if defined(__GNUC__) && !defined(__clang__)
+// Passing these vectors depends on the target's registers. They are never passed between object files, and those of
+// eight lanes only to functions that are always inlined.
+#if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
@@ -26,6 +28,7 @@ using FourInts = std::int32_t __attribute__((vector_size(16)));
 using Values = std::array<Four, 4>;
 
 inline float& at(Values& values, std::size_t i) { return reinterpret_cast<float*>(values.data())[i]; }
+inline float at(const Values& values, std::size_t i) { return values[i / 4][i % 4]; }
 
 inline Four maxOf(Four a, Four b) { return a > b ? a : b; }
 inline Four minOf(Four a, Four b) { return a < b ? a : b; }
@@ -50,6 +53,67 @@ inline Four rounded(Four f)
 
 inline constexpr Four kZero{};
 
+// Loops over eight candidates at once, four or eight lanes at a time. Their sums have the same order for both, and no
+// multiply-add is fused, so the bytes are the same on all machines.
+using Eight = float __attribute__((vector_size(32)));
+using EightInts = std::int32_t __attribute__((vector_size(32)));
+inline constexpr std::size_t kCandidates = 8;
+using CandidateValues = std::array<float, kCandidates>;
+
+// The lowest of eight errors; the first one of equals.
+inline std::size_t leastOf(const CandidateValues& errors)
+{
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < kCandidates; ++k)
+        least = errors[k] < errors[least] ? k : least;
+    return least;
+}
+
+template<class V> struct LaneInts;
+template<> struct LaneInts<Four> {
+    using Type = FourInts;
+};
+template<> struct LaneInts<Eight> {
+    using Type = EightInts;
+};
+
+template<class V> [[gnu::always_inline]] inline void loadLanes(V& to, const CandidateValues& from, std::size_t first)
+{
+    std::memcpy(&to, from.data() + first, sizeof to);
+}
+
+template<class V> [[gnu::always_inline]] inline V lanesOf(const Values& values, std::size_t first)
+{
+    V lanes;
+    std::memcpy(&lanes, reinterpret_cast<const float*>(values.data()) + first, sizeof lanes);
+    return lanes;
+}
+
+template<class V> [[gnu::always_inline]] inline void storeLanes(Values& values, std::size_t first, V lanes)
+{
+    std::memcpy(reinterpret_cast<float*>(values.data()) + first, &lanes, sizeof lanes);
+}
+
+// Calls kernel.template run<V>() with the widest vectors that the processor has. Not on Windows, where GCC does not
+// align variables of 32 bytes on the stack (its bug 54412).
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(_WIN32)
+#define COTAN_EIGHT_LANES
+#endif
+
+#ifdef COTAN_EIGHT_LANES
+template<class Kernel> [[gnu::target("avx2")]] void runEight(const Kernel& kernel) { kernel.template run<Eight>(); }
+#endif
+
+template<class Kernel> inline void runLanes(const Kernel& kernel)
+{
+#ifdef COTAN_EIGHT_LANES
+    static const bool eight = __builtin_cpu_supports("avx2") != 0;
+    if (eight)
+        return runEight(kernel);
+#endif
+    kernel.template run<Four>();
+}
+
 // Texel i of a block; outside the map, the nearest texel of its edge.
 inline const float* texelAt(const Image& map, int left, int top, int i)
 {
@@ -61,14 +125,13 @@ inline const float* texelAt(const Image& map, int left, int top, int i)
 // highest code.
 inline void loadCodes(const Image& map, int left, int top, float none, float one, float most, Values& x, Values& y)
 {
-    for (int i = 0; i < 16; ++i) {
-        const float* const texel = texelAt(map, left, top, i);
-        at(x, std::size_t(i)) = none + texel[0] * one;
-        at(y, std::size_t(i)) = none + texel[1] * one;
-    }
     for (std::size_t i = 0; i < 4; ++i) {
-        x[i] = minOf(maxOf(x[i], kZero), kZero + most);
-        y[i] = minOf(maxOf(y[i], kZero), kZero + most);
+        std::array<const float*, 4> t;
+        for (int k = 0; k < 4; ++k)
+            t[std::size_t(k)] = texelAt(map, left, top, 4 * int(i) + k);
+        const Four red{t[0][0], t[1][0], t[2][0], t[3][0]}, green{t[0][1], t[1][1], t[2][1], t[3][1]};
+        x[i] = minOf(maxOf(none + red * one, kZero), kZero + most);
+        y[i] = minOf(maxOf(none + green * one, kZero), kZero + most);
     }
 }
 
@@ -98,7 +161,7 @@ inline NormalTexels normalTexels(const Image& map, int left, int top, const Code
 
 // Encodes one channel of a block as BC4, and as the alpha of BC3: 8 bytes. values: codes; weights: of their squared
 // errors.
-void encodeAlpha(Values& values, const Values& weights, std::byte* to);
+void encodeAlpha(const Values& values, const Values& weights, std::byte* to);
 
 // Encodes all blocks, in rows from the top. encode(left, top, to): writes the block whose first texel is (left, top).
 template<class Encode> std::vector<std::byte> encodeBlocks(const Image& map, std::size_t bytes, const Encode& encode)

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "block.hpp"
 #include "block_texels.hpp"
@@ -24,129 +25,194 @@ struct Levels {
     }
 };
 
-// Weighted sum of squared errors, each texel at the nearest level.
-float levelsError(const Levels& levels, const Values& values, const Values& weights)
-{
-    std::array<Four, 4> nearest;
-    nearest.fill(kZero + std::numeric_limits<float>::max());
-    for (std::size_t k = 0; k < 8; ++k) {
-        const float code = levels.code(k);
+// The modifiers of a table are symmetric: m and -m - 1. So a texel's distance from the centre, in steps, is compared
+// with four of them: the larger ones plus a half. Of eight tables, or eight times of one.
+using Modifiers = std::array<CandidateValues, 4>;
+
+struct ModifierTables {
+    std::array<Modifiers, 2> all{};  // tables 0 to 7, 8 to 15
+    std::array<Modifiers, 16> one{}; // eight times
+};
+
+constexpr ModifierTables kModifierTables = [] {
+    ModifierTables tables;
+    for (std::size_t t = 0; t < 16; ++t)
         for (std::size_t i = 0; i < 4; ++i) {
-            const Four off = values[i] - code;
-            nearest[i] = minOf(nearest[i], off * off);
+            tables.all[t / 8][i][t % 8] = float(kEacModifiers[t][i + 4]) + 0.5f;
+            tables.one[t][i].fill(float(kEacModifiers[t][i + 4]) + 0.5f);
+        }
+    return tables;
+}();
+
+// Eight candidates.
+struct LevelsList {
+    CandidateValues base, factor;
+    const Modifiers& modifiers;
+
+    // The levels of the tables whose ends lie at the ends of the values.
+    static LevelsList spanning(const Modifiers& tables, float low, float high)
+    {
+        LevelsList list{{}, {}, tables};
+        for (std::size_t k = 0; k < kCandidates; ++k) {
+            const float range = 16 * tables[3][k];
+            list.factor[k] = std::min(float(int((high - low) / range + 0.5f)), 15.0f);
+            list.base[k] = std::clamp(((low + high + stepOf(list.factor[k])) / 2 - 4) / 8 + 0.5f, 0.0f, 255.0f);
+            list.base[k] = float(int(list.base[k]));
+        }
+        return list;
+    }
+    static float stepOf(float factor) { return factor > 0 ? 8 * factor : 1; }
+};
+
+// Weighted sums of squared errors, each texel at the nearest level. Levels outside of the codes count as if they were
+// inside, which matters only there.
+struct LevelsErrors {
+    const LevelsList& list;
+    const Values& values;
+    const Values& weights;
+    CandidateValues& errors;
+
+    template<class V> [[gnu::always_inline]] void run() const
+    {
+        for (std::size_t first = 0; first < kCandidates; first += sizeof(V) / sizeof(float)) {
+            V base, factor, sum{};
+            std::array<V, 4> level;
+            loadLanes(base, list.base, first);
+            loadLanes(factor, list.factor, first);
+            for (std::size_t k = 0; k < 4; ++k)
+                loadLanes(level[k], list.modifiers[k], first);
+            const V step = factor > 0.0f ? 8 * factor : V{} + 1, inverse = 1 / step,
+                    center = 8 * base + 4 - step * 0.5f;
+            for (std::size_t i = 0; i < 16; ++i) {
+                const V from = (values[i / 4][i % 4] - center) * inverse, distance = from > -from ? from : -from;
+                const V a = distance - level[0], b = distance - level[1], c = distance - level[2],
+                        d = distance - level[3];
+                const V aa = a * a, bb = b * b, cc = c * c, dd = d * d;
+                const V ab = aa < bb ? aa : bb, cd = cc < dd ? cc : dd;
+                sum += weights[i / 4][i % 4] * (ab < cd ? ab : cd);
+            }
+            sum *= step * step;
+            std::memcpy(errors.data() + first, &sum, sizeof sum);
         }
     }
-    Four sum{};
-    for (std::size_t i = 0; i < 4; ++i)
-        sum += weights[i] * nearest[i];
-    return sumOf(sum);
-}
+};
 
-// The levels of a table whose ends lie at the ends of the values.
-Levels spanning(int table, float low, float high)
-{
-    const std::array<int, 8>& m = kEacModifiers[std::size_t(table)]; // m[3] is the lowest, m[7] the highest
-    const int factor = std::clamp(int((high - low) / float(8 * (m[7] - m[3])) + 0.5f), 0, 15);
-    const float step = factor > 0 ? float(8 * factor) : 1;
-    const float middle = (low + high) / 2 - 4 - step * float(m[3] + m[7]) / 2;
-    return {table, std::clamp(int(middle / 8 + 0.5f), 0, 255), factor};
-}
-
-// Changes base and factor while that reduces the error, in at most kRounds rounds.
+// The levels of a table around given ones that have a smaller error, in at most kRounds rounds.
 void descendLevels(Levels& best, float& error, const Values& values, const Values& weights)
 {
     constexpr int kRounds = 4;
-    constexpr std::array<std::array<int, 2>, 8> kLevelMoves{
-        {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
-    bool moved = true;
-    for (int round = 0; moved && round < kRounds; ++round) {
-        moved = false;
-        for (const auto& [base, factor] : kLevelMoves) {
-            const Levels to{best.table, best.base + base, best.factor + factor};
-            if (to.base < 0 || to.base > 255 || to.factor < 0 || to.factor > 15)
-                continue;
-            if (const float there = levelsError(to, values, weights); there < error) {
-                best = to;
-                error = there;
-                moved = true;
-            }
+    constexpr CandidateValues kBaseMoves{1, -1, 0, 0, 1, -1, 1, -1}, kFactorMoves{0, 0, 1, -1, 1, -1, -1, 1};
+    for (int round = 0; round < kRounds; ++round) {
+        LevelsList list{{}, {}, kModifierTables.one[std::size_t(best.table)]};
+        for (std::size_t k = 0; k < kCandidates; ++k) {
+            list.base[k] = std::clamp(float(best.base) + kBaseMoves[k], 0.0f, 255.0f);
+            list.factor[k] = std::clamp(float(best.factor) + kFactorMoves[k], 0.0f, 15.0f);
         }
+        CandidateValues errors;
+        runLanes(LevelsErrors{list, values, weights, errors});
+        const std::size_t least = leastOf(errors);
+        if (!(errors[least] < error))
+            return;
+        best = {best.table, int(list.base[least]), int(list.factor[least])};
+        error = errors[least];
     }
 }
 
 Levels fitLevels(const Values& values, const Values& weights)
 {
-    constexpr std::size_t kRefined = 4; // of the 16 tables
+    constexpr int kRefined = 4; // of the 16 tables
+    constexpr float kTaken = std::numeric_limits<float>::max();
     const float low = minOf(values), high = maxOf(values);
-    std::array<std::pair<float, Levels>, 16> starts;
-    for (int table = 0; table < 16; ++table) {
-        const Levels levels = spanning(table, low, high);
-        starts[std::size_t(table)] = {levelsError(levels, values, weights), levels};
+    std::array<CandidateValues, 2> errors;
+    std::array<LevelsList, 2> starts{LevelsList::spanning(kModifierTables.all[0], low, high),
+                                     LevelsList::spanning(kModifierTables.all[1], low, high)};
+    for (std::size_t half = 0; half < 2; ++half)
+        runLanes(LevelsErrors{starts[half], values, weights, errors[half]});
+    Levels best;
+    float error = kTaken;
+    for (int i = 0; i < kRefined; ++i) {
+        const std::size_t first = leastOf(errors[0]), second = leastOf(errors[1]);
+        const std::size_t half = errors[1][second] < errors[0][first] ? 1 : 0, k = half == 0 ? first : second;
+        Levels here{int(8 * half + k), int(starts[half].base[k]), int(starts[half].factor[k])};
+        float there = std::exchange(errors[half][k], kTaken);
+        descendLevels(here, there, values, weights);
+        if (there < error) {
+            best = here;
+            error = there;
+        }
     }
-    std::partial_sort(starts.begin(), starts.begin() + kRefined, starts.end(),
-                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::pair<float, Levels> best = starts[0];
-    for (std::size_t i = 0; i < kRefined; ++i) {
-        descendLevels(starts[i].second, starts[i].first, values, weights);
-        if (starts[i].first < best.first)
-            best = starts[i];
-    }
-    return best.second;
+    return best;
 }
 
-using LevelIndices = std::array<int, 16>;
-
 // The base, the factor and the table, then 3 bits for each texel, by columns.
-void putLevels(const Levels& levels, const LevelIndices& indices, std::byte* to)
+void putLevels(const Levels& levels, const Values& indices, std::byte* to)
 {
     std::uint64_t bits =
         std::uint64_t(levels.base) << 56 | std::uint64_t(levels.factor) << 52 | std::uint64_t(levels.table) << 48;
-    for (std::size_t i = 0; i < 16; ++i)
-        bits |= std::uint64_t(indices[i % 4 * 4 + i / 4]) << (45 - 3 * i);
+    for (std::size_t column = 0; column < 4; ++column) {
+        float four = 0;
+        for (std::size_t row = 0; row < 4; ++row)
+            four = four * 8 + indices[row][int(column)];
+        bits |= std::uint64_t(four) << (36 - 12 * column);
+    }
     for (int i = 0; i < 8; ++i)
         to[i] = std::byte(bits >> (56 - 8 * i) & 0xff);
 }
 
-// The two levels nearest to a value.
-std::array<int, 2> nearestLevels(const std::array<float, 8>& codes, float value)
-{
-    std::array<int, 2> found{0, 0};
-    std::array<float, 2> off{std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
-    for (int k = 0; k < 8; ++k) {
-        const float here = std::abs(codes[std::size_t(k)] - value);
-        if (here < off[0]) {
-            found = {k, found[0]};
-            off = {here, off[0]};
-        } else if (here < off[1]) {
-            found[1] = k;
-            off[1] = here;
+// The two levels nearest to values: their indices, and how far they are off.
+template<class V> struct NearestLevels {
+    V index, secondIndex, off, secondOff;
+
+    [[gnu::always_inline]] NearestLevels(const Levels& levels, V value)
+    {
+        const V zero{};
+        off = secondOff = zero + std::numeric_limits<float>::max();
+        index = secondIndex = zero;
+        V square = zero + std::numeric_limits<float>::max(), secondSquare = square;
+        for (std::size_t k = 0; k < 8; ++k) {
+            const V here = zero + levels.code(k) - value, hereSquare = here * here, hereIndex = zero + float(k);
+            const V pushed = hereSquare < square ? square : hereSquare;
+            const V pushedOff = hereSquare < square ? off : here, pushedIndex = hereSquare < square ? index : hereIndex;
+            off = hereSquare < square ? here : off;
+            index = hereSquare < square ? hereIndex : index;
+            square = hereSquare < square ? hereSquare : square;
+            secondOff = pushed < secondSquare ? pushedOff : secondOff;
+            secondIndex = pushed < secondSquare ? pushedIndex : secondIndex;
+            secondSquare = pushed < secondSquare ? pushed : secondSquare;
         }
     }
-    return found;
-}
+};
 
-void encodePair(NormalTexels& t, std::byte* to)
+// Chooses for each texel, of the pairs of the two nearest levels, the one with the smallest angle.
+struct ChooseLevels {
+    const NormalTexels& t;
+    const Levels &x, &y;
+    Values &indicesX, &indicesY;
+
+    template<class V> [[gnu::always_inline]] void run() const
+    {
+        for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
+            const NearestLevels<V> ofX(x, lanesOf<V>(t.x, first)), ofY(y, lanesOf<V>(t.y, first));
+            const V u = lanesOf<V>(t.u, first), v = lanesOf<V>(t.v, first);
+            V smallest = V{} + std::numeric_limits<float>::max(), indexX{}, indexY{};
+            for (int k = 0; k < 4; ++k) {
+                const V dx = k & 1 ? ofX.secondOff : ofX.off, dy = k & 2 ? ofY.secondOff : ofY.off;
+                const V along = u * dx + v * dy, there = dx * dx + dy * dy + along * along;
+                indexX = there < smallest ? (k & 1 ? ofX.secondIndex : ofX.index) : indexX;
+                indexY = there < smallest ? (k & 2 ? ofY.secondIndex : ofY.index) : indexY;
+                smallest = there < smallest ? there : smallest;
+            }
+            storeLanes(indicesX, first, indexX);
+            storeLanes(indicesY, first, indexY);
+        }
+    }
+};
+
+void encodePair(const NormalTexels& t, std::byte* to)
 {
     const Levels x = fitLevels(t.x, t.weightX), y = fitLevels(t.y, t.weightY);
-    std::array<float, 8> codesX, codesY;
-    for (std::size_t k = 0; k < 8; ++k) {
-        codesX[k] = x.code(k);
-        codesY[k] = y.code(k);
-    }
-    LevelIndices indicesX{}, indicesY{};
-    for (std::size_t i = 0; i < 16; ++i) {
-        float smallest = std::numeric_limits<float>::max();
-        for (const int a : nearestLevels(codesX, at(t.x, i)))
-            for (const int b : nearestLevels(codesY, at(t.y, i))) {
-                const float dx = codesX[std::size_t(a)] - at(t.x, i), dy = codesY[std::size_t(b)] - at(t.y, i);
-                const float along = at(t.u, i) * dx + at(t.v, i) * dy, there = dx * dx + dy * dy + along * along;
-                if (there < smallest) {
-                    smallest = there;
-                    indicesX[i] = a;
-                    indicesY[i] = b;
-                }
-            }
-    }
+    Values indicesX{}, indicesY{};
+    runLanes(ChooseLevels{t, x, y, indicesX, indicesY});
     putLevels(x, indicesX, to);
     putLevels(y, indicesY, to + 8);
 }
@@ -156,8 +222,7 @@ void encodePair(NormalTexels& t, std::byte* to)
 std::vector<std::byte> encodeEacRg11(const Image& map, const CodeScale& scale)
 {
     return encodeBlocks(map, 16, [&](int left, int top, std::byte* to) {
-        NormalTexels texels = normalTexels(map, left, top, scale, kHighestCode);
-        encodePair(texels, to);
+        encodePair(normalTexels(map, left, top, scale, kHighestCode), to);
     });
 }
 
@@ -168,12 +233,9 @@ std::vector<std::byte> encodeEacR11(const Image& image)
         loadCodes(image, left, top, 0, kHighestCode, kHighestCode, values, unused);
         ones.fill(kZero + 1);
         const Levels levels = fitLevels(values, ones);
-        std::array<float, 8> codes;
-        for (std::size_t k = 0; k < 8; ++k)
-            codes[k] = levels.code(k);
-        LevelIndices indices{};
-        for (std::size_t i = 0; i < 16; ++i)
-            indices[i] = nearestLevels(codes, at(values, i))[0];
+        Values indices;
+        for (std::size_t i = 0; i < 4; ++i)
+            indices[i] = NearestLevels<Four>(levels, values[i]).index;
         putLevels(levels, indices, to);
     });
 }

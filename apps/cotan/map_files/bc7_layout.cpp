@@ -1,0 +1,113 @@
+#include "bc7_layout.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cotan::app::bc7 {
+
+const std::array<std::uint16_t, 64> kTwoSubsets{
+    0xcccc, 0x8888, 0xeeee, 0xecc8, 0xc880, 0xfeec, 0xfec8, 0xec80, 0xc800, 0xffec, 0xfe80, 0xe800, 0xffe8,
+    0xff00, 0xfff0, 0xf000, 0xf710, 0x008e, 0x7100, 0x08ce, 0x008c, 0x7310, 0x3100, 0x8cce, 0x088c, 0x3110,
+    0x6666, 0x366c, 0x17e8, 0x0ff0, 0x718e, 0x399c, 0xaaaa, 0xf0f0, 0x5a5a, 0x33cc, 0x3c3c, 0x55aa, 0x9696,
+    0xa55a, 0x73ce, 0x13c8, 0x324c, 0x3bdc, 0x6996, 0xc33c, 0x9966, 0x0660, 0x0272, 0x04e4, 0x4e40, 0x2720,
+    0xc936, 0x936c, 0x39c6, 0x639c, 0x9336, 0x9cc6, 0x817e, 0xe718, 0xccf0, 0x0fcc, 0x7744, 0xee22};
+
+const std::array<std::uint32_t, 64> kThreeSubsets{
+    0xaa685050, 0x6a5a5040, 0x5a5a4200, 0x5450a0a8, 0xa5a50000, 0xa0a05050, 0x5555a0a0, 0x5a5a5050,
+    0xaa550000, 0xaa555500, 0xaaaa5500, 0x90909090, 0x94949494, 0xa4a4a4a4, 0xa9a59450, 0x2a0a4250,
+    0xa5945040, 0x0a425054, 0xa5a5a500, 0x55a0a0a0, 0xa8a85454, 0x6a6a4040, 0xa4a45000, 0x1a1a0500,
+    0x0050a4a4, 0xaaa59090, 0x14696914, 0x69691400, 0xa08585a0, 0xaa821414, 0x50a4a450, 0x6a5a0200,
+    0xa9a58000, 0x5090a0a8, 0xa8a09050, 0x24242424, 0x00aa5500, 0x24924924, 0x24499224, 0x50a50a50,
+    0x500aa550, 0xaaaa4444, 0x66660000, 0xa5a0a5a0, 0x50a050a0, 0x69286928, 0x44aaaa44, 0x66666600,
+    0xaa444444, 0x54a854a8, 0x95809580, 0x96969600, 0xa85454a8, 0x80959580, 0xaa141414, 0x96960000,
+    0xaaaa1414, 0xa05050a0, 0xa0a5a5a0, 0x96000000, 0x40804080, 0xa9a8a9a8, 0xaaaaaa44, 0x2a4a5254};
+
+namespace {
+
+// The texels whose index is stored without its highest bit, which is 0: of the second of two subsets, and of the second
+// and third of three, one hexadecimal digit for each partition. Of the first subset it is texel 0.
+constexpr char kSecondOfTwo[] = "fffffffffffffffff282288f28228822ff6828ff28222ff66268ff22fffff22f";
+constexpr char kSecondOfThree[] = "33ff83ff88666533338f336a588685ff8f356a8ff3f5ffff3f55585a5a8dfc33";
+constexpr char kThirdOfThree[] = "f883ff38fffffff8f8f3f8f83f6affa8f3faa89a6f8f3668f3ffffffffff3ff8";
+
+int digit(char c) { return c <= '9' ? c - '0' : c - 'a' + 10; }
+
+int anchorOf(int subsets, int partition, int subset)
+{
+    if (subset == 0)
+        return 0;
+    const char* const digits = subsets == 2 ? kSecondOfTwo : subset == 1 ? kSecondOfThree : kThirdOfThree;
+    return digit(digits[partition]);
+}
+
+// Writes bits, lowest first.
+class Bits {
+public:
+    explicit Bits(std::byte* to) : to_(to) { std::fill(to, to + 16, std::byte(0)); }
+    void put(int value, int count)
+    {
+        for (int i = 0; i < count; ++i, ++at_)
+            to_[at_ / 8] |= std::byte((value >> i & 1) << at_ % 8);
+    }
+
+private:
+    std::byte* to_;
+    std::size_t at_ = 0;
+};
+
+} // namespace
+
+void write(Block block, std::byte* to)
+{
+    const Mode& mode = kModes[std::size_t(block.mode)];
+    const auto reverse = [&](std::array<int, 16>& indices, int bits, int subset) {
+        for (int i = 0; i < 16; ++i)
+            if (subsetOf(mode.subsets, block.partition, i) == subset)
+                indices[std::size_t(i)] = (1 << bits) - 1 - indices[std::size_t(i)];
+    };
+    std::array<int, 3> anchors{};
+    for (int s = 0; s < mode.subsets; ++s) {
+        auto& [first, last] = block.ends[std::size_t(s)];
+        const auto anchor = std::size_t(anchors[std::size_t(s)] = anchorOf(mode.subsets, block.partition, s));
+        // Exchanges the ends where an anchor's highest bit is set: of all channels, or, with second indices, of those
+        // that the indices belong to.
+        const bool firstIsColor = block.selection == 0;
+        if (block.indices[anchor] >> (mode.indexBits - 1)) {
+            reverse(block.indices, mode.indexBits, s);
+            if (mode.secondBits == 0)
+                std::swap(first, last);
+            else if (firstIsColor)
+                std::swap_ranges(first.begin(), first.begin() + 3, last.begin());
+            else
+                std::swap(first[3], last[3]);
+        }
+        if (mode.secondBits > 0 && block.second[anchor] >> (mode.secondBits - 1)) {
+            reverse(block.second, mode.secondBits, s);
+            if (firstIsColor)
+                std::swap(first[3], last[3]);
+            else
+                std::swap_ranges(first.begin(), first.begin() + 3, last.begin());
+        }
+    }
+    Bits bits(to);
+    bits.put(1 << block.mode, block.mode + 1);
+    bits.put(block.partition, mode.partitionBits);
+    bits.put(block.rotation, mode.rotationBits);
+    bits.put(block.selection, mode.selectionBits);
+    for (std::size_t c = 0; c < 4; ++c)
+        for (int s = 0; s < mode.subsets; ++s)
+            for (const auto& end : block.ends[std::size_t(s)])
+                bits.put(end[c] >> mode.lowBits(), c < 3 ? mode.colorBits : mode.alphaBits);
+    for (int s = 0; s < mode.subsets; ++s) {
+        const auto& [first, last] = block.ends[std::size_t(s)];
+        bits.put(first[0] & 1, mode.lowBits());
+        bits.put(last[0] & 1, mode.endBits);
+    }
+    for (std::size_t i = 0; i < 16; ++i)
+        bits.put(block.indices[i],
+                 mode.indexBits - (int(i) == anchors[std::size_t(subsetOf(mode.subsets, block.partition, int(i)))]));
+    for (std::size_t i = 0; i < 16; ++i)
+        bits.put(block.second[i], mode.secondBits - (mode.secondBits > 0 && i == 0));
+}
+
+} // namespace cotan::app::bc7
