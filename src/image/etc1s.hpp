@@ -19,7 +19,7 @@ struct Etc1sParts {
 };
 
 // Decodes into an image of unorm8: `color` into red, green and blue, and red of `second` into alpha, which is 255
-// without it. A codebook that its bytes do not hold is refused before more than 21 bytes for each entry are allocated.
+// without it. Memory grows with what the bytes of a codebook hold, not with the number of entries that they claim.
 // Errors: ErrorKind::input without the file's name.
 // Source: KTX 2.0 specification, appendix "BasisLZ/ETC1S Bitstream"; Khronos Data Format 1.4, chapter 21.1.
 Status decodeEtc1s(const Etc1sParts& parts, Image& image);

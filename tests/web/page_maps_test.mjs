@@ -4,6 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { address, decode, drawn, drop, encode, end, fact, needsData, open, problem, run, saved, scratch, settled,
   texelsEqual, texture } from './page_visit.mjs';
+import { here } from './shared.mjs';
 
 await fact('aMapWithReversedGreenIsFoundAndFixed', async () => {
   const page = await open();
@@ -47,6 +48,18 @@ await fact('fixedMapsEqualThoseOfTheCommandLine', async () => {
   await page.context().close();
   return wrong.join('\n');
 }, needsData);
+
+await fact('mapsOfBasisUniversalAreRead', async () => {
+  const page = await open(), wrong = [], seed = name => join(here, `../../fuzz/corpus/image/${name}.ktx2`);
+  for (const name of ['uastc_map', 'etc1s', 'etc1s_alpha']) {
+    await drop(page, [seed(name)]);
+    if (await problem(page) || await drawn(page, '.view canvas') < 0.02) wrong.push(`${name}: ${await problem(page) || 'the image is blank'}`);
+  }
+  await drop(page, [seed('uastc_zstd')]);
+  if (!/KTX2 with Zstandard, BC or ASTC/.test(await problem(page))) wrong.push(`uastc_zstd: ${await problem(page)}`);
+  await page.context().close();
+  return wrong.join('\n');
+});
 
 await fact('shadersEqualTheCommandLinesAndTheAddressKeepsTheChoice', async () => {
   const page = await open({ permissions: ['clipboard-read', 'clipboard-write'] }, '#shader?lang=wgsl&frame=orthonormal&map=directx');
