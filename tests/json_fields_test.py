@@ -44,6 +44,7 @@ convert panel.gltf --provoking first -o c.glb
 lint panel.gltf --limit 0.01 --limit-area 0
 lint plain.gltf --limit 90
 lint low.obj
+lint panel.gltf --details
 map info rocks.png
 map info b.png
 map info height.png

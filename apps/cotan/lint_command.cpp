@@ -10,6 +10,7 @@
 #include "gltf_open.hpp"
 #include "lint_lines.hpp"
 #include "loading.hpp"
+#include "map_files/choose.hpp"
 #include "picture.hpp"
 #include "terminal/command_words.hpp"
 
@@ -61,8 +62,9 @@ struct LintResult {
     LintReport report;
     LintCheck check;
     std::vector<ProblemArea> areas;
-    std::string command;                 // that follows the advice; empty if it would change nothing
-    double loadSeconds = 0, seconds = 0; // seconds: of the measurements
+    std::string command;                          // that follows the advice; empty if it would change nothing
+    std::vector<std::vector<TriedFormat>> blocks; // with details: what formats would cost each of report.maps
+    double loadSeconds = 0, seconds = 0;          // seconds: of the measurements
 };
 
 std::string commandFor(const LintJob& job, const LintReport& report)
@@ -96,6 +98,13 @@ Result<LintResult> lint(const LintJob& job, const CommonOptions& terminal)
     done.command = commandFor(job, done.report);
     if (!done.report.primitives.empty())
         done.areas = problemAreas(done.scene);
+    // Maps without pixels cost nothing: their list is empty.
+    for (const GreenEvidence& map : done.report.maps) {
+        const bool seen = job.details && map.image >= 0 && !done.scene.images[std::size_t(map.image)].data.empty();
+        done.blocks.push_back(seen
+                                  ? costsOf(done.scene.images[std::size_t(map.image)], {.expansion = Expansion::biased})
+                                  : std::vector<TriedFormat>());
+    }
     done.seconds = watch.lap();
     return done;
 }
@@ -108,6 +117,18 @@ std::vector<std::string> linesOf(const LintJob& job, const LintResult& done)
     std::vector<std::string> details = detailLines(done.report);
     for (const ProblemArea& area : done.areas)
         details.push_back(fmt::format("look: {}: --camera {}", area.text, formatCamera(area.camera)));
+    for (std::size_t i = 0; i < done.blocks.size(); ++i) {
+        if (job.details && done.blocks[i].empty())
+            continue;
+        std::string line =
+            fmt::format("as blocks, {} would be off by these degrees, mean and 99 %:",
+                        done.report.maps[i].name.empty() ? fmt::format("image {}", done.report.maps[i].image)
+                                                         : done.report.maps[i].name);
+        for (const TriedFormat& format : done.blocks[i])
+            line += fmt::format(" {} {:.2f}, {:.1f};", format.compress, format.meanDegrees, format.percentile99);
+        line.back() = '.';
+        details.push_back(std::move(line));
+    }
     const std::vector<std::string> checks = job.limits.any()
         ? checkLines(done.check, job.details ? done.check.failures.size() : 1)
         : std::vector<std::string>();
@@ -143,6 +164,15 @@ Json toJson(const LintJob& job, const LintResult& done)
                          {"fraction", area.share},
                          {"camera", formatCamera(area.camera)}});
     j["problem_areas"] = areas;
+    Json blocks = Json::array();
+    for (std::size_t i = 0; i < done.blocks.size(); ++i)
+        for (const TriedFormat& format : done.blocks[i])
+            blocks.push_back({{"map", done.report.maps[i].name},
+                              {"compress", format.compress},
+                              {"bits_per_texel", format.bitsPerTexel},
+                              {"mean_degrees", format.meanDegrees},
+                              {"percentile99_degrees", format.percentile99}});
+    j["as_blocks"] = blocks;
     j["check"] = toJson(done.check);
     j["over_limit"] = overLimits(done.check);
     j["seconds"] = {{"load", done.loadSeconds}, {"lint", done.seconds}};

@@ -46,7 +46,50 @@ Result<std::vector<Candidate>> candidatesFor(const Convention& to, const std::st
     return candidates;
 }
 
+// Squares of the map at equal distances, so that blocks of all sizes lie in them as in the map. A small map stays.
+Image sampleOf(const Image& map)
+{
+    constexpr int kSquare = 24, kAcross = 16, kSide = kSquare * kAcross;
+    if (map.width < 2 * kSide || map.height < 2 * kSide)
+        return map;
+    Image sample = makeImage(kSide, kSide, map.type);
+    const std::size_t bytes = map.data.size() / map.pixelCount();
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; x += kSquare) {
+            const int column = x / kSquare * (map.width / kAcross / kSquare) * kSquare;
+            const int row = y / kSquare * (map.height / kAcross / kSquare) * kSquare + y % kSquare;
+            std::copy_n(map.data.data() + bytes * (std::size_t(row) * std::size_t(map.width) + std::size_t(column)),
+                        bytes * kSquare,
+                        sample.data.data() + bytes * (std::size_t(y) * std::size_t(kSide) + std::size_t(x)));
+        }
+    return sample;
+}
+
 } // namespace
+
+std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention)
+{
+    const Image sample = sampleOf(map);
+    std::vector<TriedFormat> costs;
+    for (const char* const word : {"uastc", "bc7", "astc-6x6", "astc-8x8", "bc5", "eac-rg11"}) {
+        Convention to{.expansion = Expansion::biased};
+        const auto code = codeFor(word, "auto", to, "map.ktx2");
+        if (!code)
+            continue;
+        to = storedConvention(*code, to);
+        maps::RecodeCounts counts;
+        const Convention taken = codeConvention(*code, to);
+        const Image given = recode(sample, {.from = convention, .to = taken, .type = PixelType::float32}, counts);
+        const auto level = levelOf(given, *code, to);
+        if (!level)
+            continue;
+        const std::string bytes = ktx2Bytes(*code, {*level}, {});
+        const auto cost = costOf(given, taken, std::as_bytes(std::span(bytes)), to);
+        if (cost)
+            costs.push_back({word, bitsPerTexel(*code), cost->mean, cost->percentile99});
+    }
+    return costs;
+}
 
 Result<ChosenFormat> chooseFormat(const Image& map, const Image& pixels, const Convention& to,
                                   const std::string& swizzle, const std::filesystem::path& file,
