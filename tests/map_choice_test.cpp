@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
 #include "cotan/scene.hpp"
 #include "run_tool.hpp"
@@ -141,6 +142,7 @@ TEST(MapChoice, theChosenFormatIsTheSmallestWithinTheLimit)
 {
     const TemporaryFolder& folder = reliefs();
     std::map<std::string, int> chosen;
+    std::map<std::string, double> costs;
     for (const char* map : {"waves.png", "domes.png"})
         for (const auto& [device, to] :
              {std::pair("mobile", "gltf"), {"mobile", "gltf,xy"}, {"desktop", "gltf"}, {"desktop", "gltf,xy"}})
@@ -155,14 +157,16 @@ TEST(MapChoice, theChosenFormatIsTheSmallestWithinTheLimit)
                 double taken = 0, mean = 1e9;
                 for (const json& tried : report["tried"]) {
                     const std::string compress = tried["compress"];
-                    done(
-                        {"map", "convert", map, "--from", "gltf", "--to", to, "--compress", compress, "-o", "one.ktx2"},
-                        folder);
-                    const json angles =
-                        done({"map", "diff", map, "one.ktx2", "--from", "gltf", "--to", to}, folder)["angles"];
+                    auto [known, isNew] = costs.emplace(fmt::format("{} {} {}", map, to, compress), 0);
+                    if (isNew) {
+                        done({"map", "convert", map, "--from", "gltf", "--to", to, "--compress", compress, "-o",
+                              "one.ktx2"},
+                             folder);
+                        known->second = done({"map", "diff", map, "one.ktx2", "--from", "gltf", "--to", to},
+                                             folder)["angles"]["mean_degrees"];
+                    }
                     // The tool compares with the map before it is stored; the file has 8 bits: 0.1 degrees or less.
-                    EXPECT_NEAR(tried["mean_degrees"].get<double>(), angles["mean_degrees"].get<double>(), 0.1)
-                        << where << compress;
+                    EXPECT_NEAR(tried["mean_degrees"].get<double>(), known->second, 0.1) << where << compress;
                     if (compress == word) {
                         taken = tried["bits_per_texel"];
                         mean = tried["mean_degrees"];
@@ -205,6 +209,42 @@ TEST(MapChoice, limitsThatNothingMeetsAndOptionsThatContradictAreRefused)
               std::string::npos);
     for (const char* file : {"no.ktx2", "no.png", "no.dds"})
         EXPECT_FALSE(std::filesystem::exists(folder / file)) << file;
+}
+
+// The judge is `map convert` and `map diff` of the same map. A sample of a large map is not the map: within a quarter.
+TEST(MapChoice, lintNamesWhatBlocksWouldCost)
+{
+    const TemporaryFolder folder;
+    for (const int side : {64, 400}) {
+        ASSERT_TRUE(writeImage(folder / "waves.png", makeReliefMap(Relief::waves, side)));
+        ASSERT_TRUE(writeImage(folder / "domes.png", makeReliefMap(Relief::domes, side)));
+        Scene scene;
+        for (const char* map : {"waves.png", "domes.png"}) {
+            scene.images.push_back(*readImage(folder / map));
+            scene.images.back().name = map;
+            scene.materials.emplace_back().normalMap.image = int(scene.images.size()) - 1;
+            Mesh mesh = makePlane(1, 1, 1);
+            mesh.material = int(scene.materials.size()) - 1;
+            scene.meshes.push_back(mesh);
+            scene.instances.push_back({"", int(scene.meshes.size()) - 1, glm::mat4(1)});
+        }
+        auto document = gltfDocumentOf(scene);
+        ASSERT_TRUE(document);
+        ASSERT_TRUE(writeGltf(*document, folder / "two.glb"));
+        const json report = done({"lint", "two.glb", "--details"}, folder);
+        std::size_t seen = 0;
+        for (const json& cost : report["as_blocks"]) {
+            const std::string map = cost["map"].get<std::string>().substr(0, 5) + ".png", compress = cost["compress"];
+            done({"map", "convert", map, "--from", "gltf", "--to", "gltf", "--compress", compress, "-o", "one.ktx2"},
+                 folder);
+            const double mean = done({"map", "diff", map, "one.ktx2", "--from", "gltf", "--to", "gltf"},
+                                     folder)["angles"]["mean_degrees"];
+            EXPECT_NEAR(cost["mean_degrees"].get<double>(), mean, side == 64 ? 1e-6 + 0.02 * mean : 0.25 * mean + 0.02)
+                << map << compress;
+            ++seen;
+        }
+        EXPECT_EQ(seen, 2u * 6) << report["as_blocks"];
+    }
 }
 
 } // namespace

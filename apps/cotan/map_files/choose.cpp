@@ -49,7 +49,7 @@ Result<std::vector<Candidate>> candidatesFor(const Convention& to, const std::st
 // Squares of the map at equal distances, so that blocks of all sizes lie in them as in the map. A small map stays.
 Image sampleOf(const Image& map)
 {
-    constexpr int kSquare = 24, kAcross = 16, kSide = kSquare * kAcross;
+    constexpr int kSquare = 24, kAcross = 8, kSide = kSquare * kAcross;
     if (map.width < 2 * kSide || map.height < 2 * kSide)
         return map;
     Image sample = makeImage(kSide, kSide, map.type);

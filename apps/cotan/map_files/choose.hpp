@@ -41,7 +41,7 @@ Result<ChosenFormat> chooseFormat(const Image& map, const Image& pixels, const C
                                   const FormatBudget& budget, const FileOptions& files);
 
 // What the formats of models and engines would cost a normal map of three channels, read in `convention`: uastc, bc7,
-// astc-6x6 and astc-8x8, and of two channels bc5 and eac-rg11. Large maps are sampled: 256 squares of 24 texels a side.
+// astc-6x6 and astc-8x8, and of two channels bc5 and eac-rg11. Large maps are sampled: 64 squares of 24 texels a side.
 // Formats that this build cannot write are left out.
 std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention);
 
