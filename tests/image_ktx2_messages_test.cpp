@@ -27,14 +27,15 @@ TEST(Ktx2, everyFormatRequiresItsByteCountAndOthersAreRefused)
     const struct {
         std::uint32_t linear, srgb;
         int channels, bytes, block;
-    } formats[] = {{9, 15, 1, 1, 0},     {16, 22, 2, 2, 0},    {23, 29, 3, 3, 0},    {30, 36, 3, 3, 0},
-                   {37, 43, 4, 4, 0},    {44, 50, 4, 4, 0},    {51, 57, 4, 4, 0},    {70, 70, 1, 2, 0},
-                   {76, 76, 1, 2, 0},    {77, 77, 2, 4, 0},    {83, 83, 2, 4, 0},    {84, 84, 3, 6, 0},
-                   {90, 90, 3, 6, 0},    {91, 91, 4, 8, 0},    {97, 97, 4, 8, 0},    {100, 100, 1, 4, 0},
-                   {103, 103, 2, 8, 0},  {106, 106, 3, 12, 0}, {109, 109, 4, 16, 0}, {131, 132, 4, 0, 8},
-                   {133, 134, 4, 0, 8},  {135, 136, 4, 0, 16}, {137, 138, 4, 0, 16}, {139, 139, 1, 0, 8},
-                   {141, 141, 2, 0, 16}, {145, 146, 4, 0, 16}, {147, 148, 3, 0, 8},  {149, 150, 4, 0, 8},
-                   {151, 152, 4, 0, 16}, {153, 153, 1, 0, 8},  {155, 155, 2, 0, 16}};
+    } formats[] = {
+        {9, 15, 1, 1, 0},     {16, 22, 2, 2, 0},    {23, 29, 3, 3, 0},    {30, 36, 3, 3, 0},    {37, 43, 4, 4, 0},
+        {44, 50, 4, 4, 0},    {51, 57, 4, 4, 0},    {70, 70, 1, 2, 0},    {76, 76, 1, 2, 0},    {77, 77, 2, 4, 0},
+        {83, 83, 2, 4, 0},    {84, 84, 3, 6, 0},    {90, 90, 3, 6, 0},    {91, 91, 4, 8, 0},    {97, 97, 4, 8, 0},
+        {100, 100, 1, 4, 0},  {103, 103, 2, 8, 0},  {106, 106, 3, 12, 0}, {109, 109, 4, 16, 0}, {131, 132, 4, 0, 8},
+        {133, 134, 4, 0, 8},  {135, 136, 4, 0, 16}, {137, 138, 4, 0, 16}, {139, 139, 1, 0, 8},  {140, 140, 1, 0, 8},
+        {142, 142, 2, 0, 16}, {143, 143, 3, 0, 16}, {144, 144, 3, 0, 16}, {154, 154, 1, 0, 8},  {156, 156, 2, 0, 16},
+        {141, 141, 2, 0, 16}, {145, 146, 4, 0, 16}, {147, 148, 3, 0, 8},  {149, 150, 4, 0, 8},  {151, 152, 4, 0, 16},
+        {153, 153, 1, 0, 8},  {155, 155, 2, 0, 16}};
     // 5 x 7 texels are this many blocks.
     constexpr std::pair<std::uint32_t, std::size_t> astc[] = {{157, 4}, {159, 2}, {161, 2}, {163, 2}, {165, 2},
                                                               {167, 2}, {169, 2}, {171, 1}, {173, 2}, {175, 2},
@@ -45,10 +46,6 @@ TEST(Ktx2, everyFormatRequiresItsByteCountAndOthersAreRefused)
             std::ranges::find_if(formats, [&](const auto& f) { return f.linear == number || f.srgb == number; });
         const std::string reason =
             ktx2Refusal(makeKtx2({.format = number, .width = 5, .height = 7, .levels = {{"x"}}}));
-        if (number == 154 || number == 156) {
-            EXPECT_EQ(reason, "a.ktx2: EAC with signed values is not supported");
-            continue;
-        }
         if (const auto* const size =
                 std::ranges::find_if(astc, [&](const auto& a) { return number == a.first || number == a.first + 1; });
             size != std::end(astc)) {
@@ -83,7 +80,7 @@ TEST(Ktx2, everyFormatRequiresItsByteCountAndOthersAreRefused)
                                        {1000066014u, ""},
                                        {146u, ""},
                                        {147u, ""},
-                                       {156u, "KTX2 with EAC with signed values"},
+                                       {156u, ""},
                                        {157u, ""},
                                        {185u, ""}}) {
         const std::string file = makeKtx2({.format = number, .levels = {{"some"}}});

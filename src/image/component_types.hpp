@@ -17,6 +17,14 @@ template<class F> void withComponents(Image& image, const F& f)
     }
 }
 
+// A signed value, `value` of -most to most, as images of unorm16 carry it: -1 is 1, 0 is 32768 and 1 is 65535. So what
+// means 0 is the code that conventions with an exact zero expect, and 2c - 1 is at most 1/65535 off.
+constexpr std::uint16_t unormOfSigned(int value, int most)
+{
+    const std::int64_t twice = std::int64_t(2 * 32767) * value + (value < 0 ? -most : most);
+    return std::uint16_t(0x8000 + twice / (2 * std::int64_t(most))); // rounds to the nearest, halves away from 0
+}
+
 // Converts to 8 bits: floats are clamped to [0,1] and NaN becomes 0; 16-bit values are rounded.
 Image toUnorm8(const Image& image);
 

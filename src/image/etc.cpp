@@ -8,6 +8,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "image/component_types.hpp"
+
 namespace cotan {
 
 namespace {
@@ -141,19 +143,28 @@ int modifierOf(std::uint64_t bits, int i)
     return kEacModifiers[std::size_t(field(bits, 48, 4))][std::size_t(field(bits, 45 - 3 * i, 3))];
 }
 
+enum class EacKind { alpha, eleven, signedEleven };
+
 // Alpha of 8 bits, or another channel of 11 bits, which becomes one of 16.
-void decodeChannel(std::uint64_t bits, bool eleven, int channel, Texels& texels)
+void decodeChannel(std::uint64_t bits, EacKind kind, int channel, Texels& texels)
 {
-    const int base = field(bits, 56, 8), factor = field(bits, 52, 4);
+    const int base = field(bits, 56, 8), factor = field(bits, 52, 4), step = factor > 0 ? 8 * factor : 1;
     for (int i = 0; i < 16; ++i) {
-        int value = std::clamp(base + modifierOf(bits, i) * factor, 0, 255);
-        if (eleven) {
-            const int in2047 = std::clamp(8 * base + 4 + modifierOf(bits, i) * (factor > 0 ? 8 * factor : 1), 0, 2047);
-            value = (in2047 * 65535 + 1023) / 2047;
+        const int modifier = modifierOf(bits, i);
+        int value = 0;
+        if (kind == EacKind::alpha) {
+            value = std::clamp(base + modifier * factor, 0, 255);
+        } else if (kind == EacKind::eleven) {
+            value = (std::clamp(8 * base + 4 + modifier * step, 0, 2047) * 65535 + 1023) / 2047;
+        } else { // a base of -128 is -127
+            const int signedBase = std::max(base < 128 ? base : base - 256, -127);
+            value = unormOfSigned(std::clamp(8 * signedBase + modifier * step, -1023, 1023), 1023);
         }
         texels[std::size_t(placeOf(i))][channel] = value;
     }
 }
+
+bool isSigned(EtcCode code) { return code == EtcCode::r11Signed || code == EtcCode::rg11Signed; }
 
 void decodeBlock(EtcCode code, const std::byte* block, Texels& texels)
 {
@@ -162,15 +173,17 @@ void decodeBlock(EtcCode code, const std::byte* block, Texels& texels)
     case EtcCode::rgbPunchedAlpha: return decodeColors(bitsOf(block), true, texels);
     case EtcCode::rgba:
         decodeColors(bitsOf(block + 8), false, texels);
-        return decodeChannel(bitsOf(block), false, 3, texels);
+        return decodeChannel(bitsOf(block), EacKind::alpha, 3, texels);
     case EtcCode::r11:
-        decodeChannel(bitsOf(block), true, 0, texels);
+    case EtcCode::r11Signed:
+        decodeChannel(bitsOf(block), isSigned(code) ? EacKind::signedEleven : EacKind::eleven, 0, texels);
         for (glm::ivec4& t : texels)
             t = {t.x, t.x, t.x, 65535};
         return;
     case EtcCode::rg11:
-        decodeChannel(bitsOf(block), true, 0, texels);
-        decodeChannel(bitsOf(block + 8), true, 1, texels);
+    case EtcCode::rg11Signed:
+        for (int c = 0; c < 2; ++c)
+            decodeChannel(bitsOf(block + 8 * c), isSigned(code) ? EacKind::signedEleven : EacKind::eleven, c, texels);
         for (glm::ivec4& t : texels)
             t = {t.x, t.y, 32768, 65535};
         return;
@@ -197,12 +210,15 @@ template<class T> void decodeRows(EtcCode code, std::span<const std::byte> block
 
 } // namespace
 
-std::size_t etcBytes(EtcCode code) { return code == EtcCode::rgba || code == EtcCode::rg11 ? 16 : 8; }
+std::size_t etcBytes(EtcCode code)
+{
+    return code == EtcCode::rgba || code == EtcCode::rg11 || code == EtcCode::rg11Signed ? 16 : 8;
+}
 
 void decodeEtc(EtcCode code, std::span<const std::byte> blocks, Image& image)
 {
-    if (code == EtcCode::r11 || code == EtcCode::rg11)
-        decodeRows(code, blocks, reinterpret_cast<std::uint16_t*>(image.data.data()), image.width, image.height);
+    if (image.type == PixelType::unorm16)
+        decodeRows(code, blocks, image.words(), image.width, image.height);
     else
         decodeRows(code, blocks, image.bytes8(), image.width, image.height);
 }

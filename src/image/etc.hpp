@@ -14,7 +14,9 @@ enum class EtcCode {
     rgbPunchedAlpha, // alpha is 0 or 1; 8 bytes
     rgba,            // 16 bytes
     r11,             // EAC, 11 bits, unsigned; 8 bytes
-    rg11             // 16 bytes
+    rg11,            // 16 bytes
+    r11Signed,       // EAC, 11 bits, signed: read as unormOfSigned carries it; 8 bytes
+    rg11Signed       // 16 bytes
 };
 
 // What a texel adds to or subtracts from the colour of its half: the smaller and the larger, by the number of a table.
@@ -42,8 +44,8 @@ inline constexpr std::array<std::array<int, 8>, 16> kEacModifiers{{{-3, -6, -9, 
 std::size_t etcBytes(EtcCode code); // per block
 
 // Decodes blocks in rows from the top: ceil(width / 4) * ceil(height / 4) of them, which the caller checks. Every block
-// is valid. r11 and rg11 need an image of unorm16, the others unorm8; grey and blue are as in other files of one and
-// two channels. Source: Khronos Data Format Specification 1.3, chapters 20 and 21.
+// is valid. EAC without RGB needs an image of unorm16, the others unorm8; grey and blue are as in other files of one
+// and two channels. Source: Khronos Data Format Specification 1.3, chapters 20 and 21.
 void decodeEtc(EtcCode code, std::span<const std::byte> blocks, Image& image);
 
 } // namespace cotan

@@ -44,12 +44,12 @@ struct Ktx2Format {
     std::uint32_t linear = 0; // VkFormat
     std::uint32_t srgb = 0;   // its sRGB variant; `linear` if there is none
     int channels = 0;         // of the decoded image
-    int bytes = 0;            // per component; 0: blocks that decode to 8 bits
+    int bytes = 0;            // per component; 0: blocks that decode to 8 bits or, with `floats`, to floats
     bool floats = false;      // components are floats of 2 or 4 bytes
     bool blueFirst = false;   // BGR order
     BlockFormat blocks = {};
 
-    bool hasBlocks() const { return bytes == 0 || blocks.etc; }
+    bool hasBlocks() const { return bytes == 0 || blocks.etc || blocks.dds.block != 0; }
 };
 
 // The largest level of a file, and the keys that apply to it.
@@ -91,13 +91,19 @@ constexpr Ktx2Format kVulkanFormats[] = {{9, 15, 1, 1},
                                          {135, 136, 4, 0, false, false, dds("DXT3", 0, 16)},
                                          {137, 138, 4, 0, false, false, dds("DXT5", 0, 16)},
                                          {139, 139, 1, 0, false, false, dds("DX10", 80, 8)},
+                                         {140, 140, 1, 2, false, false, dds("DX10", 81, 8)},
                                          {141, 141, 2, 0, false, false, dds("DX10", 83, 16)},
+                                         {142, 142, 2, 2, false, false, dds("DX10", 84, 16)},
+                                         {143, 143, 3, 0, true, false, dds("DX10", 95, 16)},
+                                         {144, 144, 3, 0, true, false, dds("DX10", 96, 16)},
                                          {145, 146, 4, 0, false, false, dds("DX10", 98, 16)},
                                          {147, 148, 3, 0, false, false, etc(EtcCode::rgb)},
                                          {149, 150, 4, 0, false, false, etc(EtcCode::rgbPunchedAlpha)},
                                          {151, 152, 4, 0, false, false, etc(EtcCode::rgba)},
                                          {153, 153, 1, 2, false, false, etc(EtcCode::r11)},
+                                         {154, 154, 1, 2, false, false, etc(EtcCode::r11Signed)},
                                          {155, 155, 2, 2, false, false, etc(EtcCode::rg11)},
+                                         {156, 156, 2, 2, false, false, etc(EtcCode::rg11Signed)},
                                          {157, 158, 4, 0, false, false, astc(4, 4)},
                                          {159, 160, 4, 0, false, false, astc(5, 4)},
                                          {161, 162, 4, 0, false, false, astc(5, 5)},
@@ -336,8 +342,6 @@ std::string foreignKtx2(std::span<const std::byte> bytes)
     const std::uint64_t model = file.at(file.at(48, 4) + 12, 1); // in the data format descriptor
     if (format == 0 && model >= 167 && model <= 170)             // those of Basis Universal 2
         return "BasisU other than ETC1S and UASTC LDR 4x4";
-    if (format == 154 || format == 156)
-        return "EAC with signed values";
     if (format >= 1000066000 && format <= 1000066013)
         return "ASTC with high dynamic range";
     return format >= 157 && format <= 184 && !readsAstc() ? "ASTC" : "";

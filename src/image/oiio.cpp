@@ -223,6 +223,8 @@ try {
     MemoryFile memory(bytes);
     if (auto error = checkFileLayout(memory, name, format, limits))
         return *error;
+    if (const int channels = format == "dds" ? signedDdsChannels(memory) : 0)
+        return readSignedDds(memory, channels, name, limits);
     const auto input = OIIO::ImageInput::create(format);
     if (!input)
         return brokenToOiio(name, format, OIIO::geterror());

@@ -40,6 +40,14 @@ Problem checkExr(File& file, const LoadLimits& limits);
 Problem checkDds(File& file, const LoadLimits& limits);
 Problem checkBmp(File& file, const LoadLimits& limits);
 
+// ---- signed DDS ----------------------------------------------------------------------------
+
+// The number of channels of a DDS with signed blocks; 0: any other file.
+int signedDdsChannels(File& file);
+
+// Reads the first level, which checkDds has checked, as unormOfSigned carries it.
+Result<Image> readSignedDds(File& file, int channels, const std::string& name, const LoadLimits& limits);
+
 // ---- shared --------------------------------------------------------------------------------
 
 OIIO::TypeDesc typeDesc(PixelType type);

@@ -14,9 +14,10 @@ import cotan
 CHROMIUM = shutil.which(os.environ.get("CHROMIUM", "chromium"))
 
 # VkFormat, WebGL's extension and constant, block size, bytes, channels that are compared, tolerance in units of 1/255:
-# none for ETC2; a step for ASTC, of whose 16 bits SwiftShader takes the upper 8, and libastcenc rounds; a step of 11
-# bits for EAC, which SwiftShader divides by another number than the specification's 2047; and a step for BC, whose
-# interpolation GPUs may round.
+# none for ETC2 and BC6H; a step for ASTC, of whose 16 bits SwiftShader takes the upper 8, and libastcenc rounds; a step
+# of 11 bits for EAC, which SwiftShader divides by another number than the specification's 2047, and to signed values it
+# adds 4, which the specification and its conformance tests (dEQP) add to unsigned ones only; and a step of the stored 8
+# bits for BC, whose interpolation GPUs may round.
 S3TC, RGTC, BPTC = "WEBGL_compressed_texture_s3tc", "EXT_texture_compression_rgtc", "EXT_texture_compression_bptc"
 ETC, ASTC = "WEBGL_compressed_texture_etc", "WEBGL_compressed_texture_astc"
 STEP = 1.001
@@ -26,10 +27,16 @@ FORMATS = {
     "etc2-rgba": (151, ETC, 0x9278, (4, 4), 16, 4, 1e-3),
     "eac-r11": (153, ETC, 0x9270, (4, 4), 8, 1, 255 / 2047),
     "eac-rg11": (155, ETC, 0x9272, (4, 4), 16, 2, 255 / 2047),
+    "eac-r11-signed": (154, ETC, 0x9271, (4, 4), 8, 1, 255 * 5 / 1023),
+    "eac-rg11-signed": (156, ETC, 0x9273, (4, 4), 16, 2, 255 * 5 / 1023),
     "bc1": (133, S3TC, 0x83F1, (4, 4), 8, 4, STEP),
     "bc3": (137, S3TC, 0x83F3, (4, 4), 16, 4, STEP),
     "bc4": (139, RGTC, 0x8DBB, (4, 4), 8, 1, STEP),
     "bc5": (141, RGTC, 0x8DBD, (4, 4), 16, 2, STEP),
+    "bc4-signed": (140, RGTC, 0x8DBC, (4, 4), 8, 1, 255 / 127),
+    "bc5-signed": (142, RGTC, 0x8DBE, (4, 4), 16, 2, 255 / 127),
+    "bc6h": (143, BPTC, 0x8E8F, (4, 4), 16, 3, 1e-3),
+    "bc6h-signed": (144, BPTC, 0x8E8E, (4, 4), 16, 3, 1e-3),
     "bc7": (145, BPTC, 0x8E8C, (4, 4), 16, 4, STEP),
 }
 SIZES = [(4, 4), (5, 4), (5, 5), (6, 5), (6, 6), (8, 5), (8, 6), (8, 8), (10, 5), (10, 6), (10, 8), (10, 10), (12, 10), (12, 12)]
@@ -105,9 +112,16 @@ def test_random_blocks_of_every_format_are_decoded_as_webgl_does(tmp_path):
         files[-1].write_bytes(ktx2(vulkan, width, height, blocks))
     for name, file, wanted in zip(FORMATS, files, judged(jobs, tmp_path)):
         *_, channels, tolerance = FORMATS[name]
-        image = cotan.read_image(file)
-        steps = image[..., :channels] * (255.0 / np.iinfo(image.dtype).max)
-        difference = np.abs(steps - 255.0 * wanted[..., :channels])
+        image = cotan.read_image(file)[..., :channels]
+        wanted = wanted[..., :channels]
+        if image.dtype == np.float32: # BC6H: relative to the value, beyond 1
+            assert (wanted.min() < -1) == name.endswith("signed") and wanted.max() > 1000
+            difference = 255.0 * np.abs(image - wanted) / np.maximum(1, np.abs(wanted))
+        elif name.endswith("signed"): # 0 is 32768
+            assert wanted.min() < -0.5
+            difference = 255.0 * np.abs((image - 32768.0) / 32767 - wanted)
+        else:
+            difference = np.abs(image * (255.0 / np.iinfo(image.dtype).max) - 255.0 * wanted)
         assert difference.max() <= tolerance, shares(name, difference, tolerance)
         # Most random blocks of ASTC break its rules, for which all decoders give one colour.
         assert np.ptp(wanted[..., 0]) > 0.5 or name.startswith("astc"), name

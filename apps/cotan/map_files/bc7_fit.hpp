@@ -38,8 +38,8 @@ struct Fit {
 };
 
 // Fits a line to the texels whose mask is 1; the others have 0. error: the sum of squared errors, in codes; angles are
-// in 127ths of a radian.
-Fit fitLine(const Texels& t, const LineCode& code, const Values& mask);
+// in 127ths of a radian. limit: of the error, beyond which a first fit is not improved.
+Fit fitLine(const Texels& t, const LineCode& code, const Values& mask, float limit);
 
 // Changes each value of the ends by one step while that reduces the error, in at most `rounds` rounds.
 void refineLine(Fit& fit, const Texels& t, const LineCode& code, const Values& mask, int rounds);
@@ -66,8 +66,8 @@ struct PlanePoints {
 
 PlanePoints planePoints(const Texels& t, int scalar);
 
-// Fits directions, of opaque texels. Points: along is not 0.
-PlanesFit fitPlanes(const Texels& t, const PlanePoints& points, const PlanesCode& code);
+// Fits directions, of opaque texels. Points: along is not 0. limit: as of fitLine.
+PlanesFit fitPlanes(const Texels& t, const PlanePoints& points, const PlanesCode& code, float limit);
 void refinePlanes(PlanesFit& fit, const Texels& t, const PlanesCode& code, int rounds);
 
 // Fits alpha by itself: its ends are those of channel 3.
