@@ -1,5 +1,5 @@
-// Compares BC5 of normal maps with libnvtt and libsquish, then BC7 with libsquish's BC1 and BC3: the mean and maximum
-// error in degrees, and the time on one core.
+// Compares BC5 of normal maps with libnvtt and libsquish, then BC7 with libsquish's BC1 and BC3 and with libastcenc's
+// ASTC 4x4: the mean and maximum error in degrees, and the time on one core.
 //   block_time FILE...
 #include <algorithm>
 #include <cmath>
@@ -19,6 +19,7 @@
 
 #include "core/loops.hpp"
 #include "cotan/image.hpp"
+#include "image/astc.hpp"
 #include "image/dds.hpp"
 #include "map_files/block.hpp"
 
@@ -114,16 +115,11 @@ Bytes bySquish(const std::vector<std::uint8_t>& rgba, int width, int height)
     return bytes;
 }
 
-// Error of blocks with three channels, decoded by OpenImageIO.
-Figures errorOfThree(const std::vector<glm::dvec3>& normals, int width, int height, const cotan::DdsCode& code,
-                     const Bytes& blocks)
+Figures errorOfThree(const std::vector<glm::dvec3>& normals, const Image& image)
 {
-    Bytes dds = cotan::ddsHeader(code, width, height, 1);
-    dds.insert(dds.end(), blocks.begin(), blocks.end());
-    const auto image = cotan::decodeImage(dds, "blocks.dds");
     Figures f;
-    for (std::size_t i = 0; image && i < normals.size(); ++i) {
-        const std::uint8_t* const texel = image->bytes8() + 4 * i;
+    for (std::size_t i = 0; i < std::min(normals.size(), image.pixelCount()); ++i) {
+        const std::uint8_t* const texel = image.bytes8() + 4 * i;
         const glm::dvec3 n = glm::normalize((glm::dvec3(texel[0], texel[1], texel[2]) - 128.0) / 127.0);
         const double degrees =
             glm::degrees(std::atan2(glm::length(glm::cross(n, normals[i])), glm::dot(n, normals[i])));
@@ -131,6 +127,20 @@ Figures errorOfThree(const std::vector<glm::dvec3>& normals, int width, int heig
         f.maximum = std::max(f.maximum, degrees);
     }
     return f;
+}
+
+// Blocks with three channels, decoded by OpenImageIO.
+Image decodedDds(const cotan::DdsCode& code, int width, int height, const Bytes& blocks)
+{
+    Bytes dds = cotan::ddsHeader(code, width, height, 1);
+    dds.insert(dds.end(), blocks.begin(), blocks.end());
+    return *cotan::decodeImage(dds, "blocks.dds");
+}
+
+Image decodedAstc(int width, int height, const Bytes& blocks)
+{
+    Image image = cotan::makeImage(width, height, cotan::PixelType::unorm8, "astc");
+    return cotan::decodeAstc(4, 4, blocks, image) ? image : Image{};
 }
 
 Bytes byCotan(const Image& map)
@@ -208,8 +218,16 @@ int main(int count, char** files)
             const std::clock_t start = std::clock();
             const Bytes blocks = encode();
             const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
-            print(by, errorOfThree(normals, width, height, code, blocks), seconds);
+            print(by, errorOfThree(normals, decodedDds(code, width, height, blocks)), seconds);
         }
+        Image scaled = target; // ASTC takes codes, 0 to 1
+        for (std::size_t i = 0; i < 4 * map->pixelCount(); ++i)
+            if (i % 4 != 3)
+                scaled.floats()[i] = (128 + 127 * (2 * scaled.floats()[i] - 1)) / 255;
+        const std::clock_t start = std::clock();
+        const Bytes astc = cotan::withThreads(1, [&] { return *cotan::encodeAstc(4, 4, scaled, false); });
+        const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+        print("astcenc, ASTC 4x4", errorOfThree(normals, decodedAstc(width, height, astc)), seconds);
     }
     return 0;
 }

@@ -1,4 +1,5 @@
 // Signed blocks of DDS and KTX2, and maps of two channels whose z is rebuilt.
+#include <algorithm>
 #include <cmath>
 #include <string>
 

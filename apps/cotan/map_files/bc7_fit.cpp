@@ -78,23 +78,27 @@ float errorOf(const Ends& ends, const Texels& t, const LineCode& code, const Val
     return sumOf(sum);
 }
 
+// With alpha, lines fit vectors, and only errors are those of directions.
+const std::array<Values, 4>& aimOf(const Texels& t, std::size_t channels) { return channels == 4 ? t.codes : t.aim; }
+
 // The line through the mean along the principal axis, clipped to the range of the texels.
 Line principal(const Texels& t, std::size_t channels, const Values& mask)
 {
+    const std::array<Values, 4>& aim = aimOf(t, channels);
     Values weights;
     Four all{};
     for (std::size_t i = 0; i < 4; ++i)
-        all += weights[i] = mask[i] * t.weight[i];
+        all += weights[i] = mask[i] * (channels == 4 ? kZero + 1 : t.weight[i]);
     const float inverse = 1 / sumOf(all);
     Color mean{};
     std::array<Values, 4> off;
     for (std::size_t c = 0; c < channels; ++c) {
         Four sum{};
         for (std::size_t i = 0; i < 4; ++i)
-            sum += weights[i] * t.aim[c][i];
+            sum += weights[i] * aim[c][i];
         mean[c] = sumOf(sum) * inverse;
         for (std::size_t i = 0; i < 4; ++i)
-            off[c][i] = t.aim[c][i] - mean[c];
+            off[c][i] = aim[c][i] - mean[c];
     }
     std::array<Color, 4> covariance{};
     for (std::size_t a = 0; a < channels; ++a)
@@ -151,7 +155,7 @@ float storeEnd(const Color& end, const Texels& t, const LineCode& code, int low,
         stored[3] = nearestStored(kZero + end[3], code.alphaBits, code.lowBits, low)[0];
     else if (code.alphaBits > 0)
         stored[3] = (1 << code.alphaBits) - 1;
-    const bool anyLength = t.directions;
+    const bool anyLength = t.directions && code.channels == 3; // with alpha, positions are those of unit vectors
     Color v{};
     float square = 1e-9f, growth = 1e9f;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -224,7 +228,7 @@ Fit fitLine(const Texels& t, const LineCode& code, const Values& mask, float lim
     Line line = principal(t, channels, mask);
     Values weights;
     for (std::size_t i = 0; i < 4; ++i)
-        weights[i] = mask[i] * t.weight[i];
+        weights[i] = mask[i] * (channels == 4 ? kZero + 1 : t.weight[i]);
     Fit best;
     for (int round = 0; round < kRounds; ++round) {
         Fit here;
@@ -237,7 +241,7 @@ Fit fitLine(const Texels& t, const LineCode& code, const Values& mask, float lim
         if (!fit.solvable())
             break;
         for (std::size_t c = 0; c < channels; ++c)
-            fit.solve(t.aim[c], line.from[c], line.to[c]);
+            fit.solve(aimOf(t, channels)[c], line.from[c], line.to[c]);
     }
     return best;
 }
