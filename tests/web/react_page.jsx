@@ -116,6 +116,8 @@ export async function hooks() {
   const view = await rootOf(), frames = [], errors = [], calls = [], map = new THREE.DataTexture(Uint8Array.of(128, 128, 255, 255), 1, 1);
   map.needsUpdate = true;
   const count = (...given) => { calls.push(given.length); return untangle(...given); };
+  let key = 0;
+  const caught = element => <Boundary key={++key} caught={error => { errors.push(`${error.code}: ${error.message}`); }}>{element}</Boundary>;
   const Own = ({ frame }) => {
     const group = useRef(null), decisions = useUntangled(group, { frame, untangle: count });
     frames.push(decisions.map(decision => decision.frame).join());
@@ -125,8 +127,11 @@ export async function hooks() {
   await view.show(<Own frame="orthonormal" />);
   const once = calls.length;
   await view.show(<Own frame="cotangent" />);
-  for (const properties of [{ object: 7 }, { object: new THREE.Group(), frame: 'round' }, { object: new THREE.Group(), maxDegrees: -1 }])
-    await view.show(<Boundary key={errors.length} caught={error => { errors.push(`${error.code}: ${error.message}`); }}><Untangled {...properties} /></Boundary>);
+  for (const properties of [{ object: 7 }, { object: new THREE.Group(), frame: 'round' }, { object: new THREE.Group(), maxDegrees: -1 },
+    { object: new THREE.Group(), onDecided: 'log' }, { object: new THREE.Group(), untangle: true }])
+    await view.show(caught(<Untangled {...properties} />));
+  const Wrong = ({ given }) => useUntangled(given).length;
+  for (const given of [7, 'model.glb', {}]) await view.show(caught(<Wrong given={given} />));
   const Missing = () => { frames.push(`missing ${useUntangled(null).length}`); return null; };
   await view.show(<Missing />);
   await view.close();

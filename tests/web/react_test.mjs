@@ -60,8 +60,9 @@ const cases = {
     assert.deepEqual([once, calls], [1, 2], 'a rendering without a change calls nothing');
     assert.equal(frames[0], '');
     assert.ok(frames.includes('orthonormal') && frames.indexOf('cotangent') > frames.indexOf('orthonormal') && frames.includes('missing 0'), frames.join(' | '));
-    assert.equal(errors.length, 3, errors.join('\n'));
-    for (const [k, field] of ['object', 'options.frame', 'options.maxDegrees'].entries()) assert.ok(errors[k].startsWith(`usage: ${field}: expected `), errors[k]);
+    const fields = ['object', 'options.frame', 'options.maxDegrees', 'options.onDecided', 'options.untangle', 'target', 'target', 'target'];
+    assert.equal(errors.length, fields.length, errors.join('\n'));
+    for (const [k, field] of fields.entries()) assert.ok(errors[k].startsWith(`usage: ${field}: expected `), errors[k]);
   },
 };
 await runCases(cases, only);

@@ -19,7 +19,7 @@ export function useUntangled(object: Object3D | LoadedModel | RefObject<Object3D
 
 export interface UntangledProps extends UseUntangledOptions {
   object: Object3D | (LoadedModel & { scene: Object3D });
-  /** Is called with the decisions, after each call of `untangle`. */
+  /** Is called with the decisions, if there are any, after each call of `untangle`. */
   onDecided?: (decisions: Decision[]) => void;
   /** By default geometries, materials and textures of the model are disposed of when the component is unmounted; three.js uploads
    * them again if the model is drawn again. null: nothing is. */

@@ -1,15 +1,18 @@
 // Cotan for react-three-fiber: untangle() of cotan/three when a model is mounted. See react.d.ts.
 import { invalidate } from '@react-three/fiber';
 import { createElement, useEffect, useLayoutEffect, useState } from 'react';
+import { checkTypes } from '../src/arrays.js';
 import { usage, wordsFor } from '../src/errors.js';
 import { untangle as untangleForWebGL } from './index.js';
 
-export function useUntangled(object, { untangle = untangleForWebGL, ...options } = {}) {
+export function useUntangled(object, given) {
+  const { untangle = untangleForWebGL, ...options } = given ?? {};
+  checkTypes({ untangle }, 'function', 'untangle');
   const [decisions, setDecisions] = useState([]);
   // Before the next frame is drawn, and after the object has its parents, which may mirror it.
   useLayoutEffect(() => {
-    const target = object && 'current' in object ? object.current : object;
-    if (!target) return;
+    const target = typeof object?.current === 'object' ? object.current : object; // a ref, or the object
+    if (target === null || target === undefined) return;
     setDecisions(untangle(target, options));
     invalidate();
   }, [object, untangle, options.frame, options.maxDegrees, options.convention]);
@@ -19,6 +22,7 @@ export function useUntangled(object, { untangle = untangleForWebGL, ...options }
 export function Untangled({ object, frame, maxDegrees, convention, note, untangle, onDecided, dispose, ...props }) {
   const root = object?.isObject3D ? object : object?.scene;
   if (!root?.isObject3D) throw usage(`object: expected an Object3D or the result of GLTFLoader, found ${wordsFor(object)}`);
+  checkTypes({ onDecided }, 'function', 'onDecided');
   const decisions = useUntangled(object, { frame, maxDegrees, convention, note, untangle });
   useEffect(() => { if (decisions.length > 0) onDecided?.(decisions); }, [decisions]);
   useEffect(() => (dispose === null ? undefined : () => free(root)), [root, dispose]);
