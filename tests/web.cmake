@@ -24,7 +24,7 @@ cotan_web_test(package ARGUMENTS ${tarball} $<TARGET_FILE:cotan_c> FIXTURES web 
 foreach(name instance zip)
   cotan_web_test(${name} ARGUMENTS ${tarball} FIXTURES web npm)
 endforeach()
-foreach(name arguments gltf_transform three three_choice types bundlers browser readme)
+foreach(name arguments gltf_transform model_viewer react three three_choice types bundlers browser readme)
   cotan_web_test(${name} ARGUMENTS ${tarball} ${modules} FIXTURES web npm)
 endforeach()
 
@@ -46,6 +46,9 @@ cotan_web_test(edges ARGUMENTS ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 # Height maps in three.js, compared with rays against the displaced surface; and what stock three.js draws instead.
 cotan_web_test(three_beyond ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 cotan_web_test(three_relief ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} FIXTURES npm)
+
+# The lines of docs/how-to/three-normal-maps.md in stock three.js, compared with an analytic relief.
+cotan_web_test(three_symptoms ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} FIXTURES npm)
 
 # The blocks of GPU textures that the tool writes, in stock three.js.
 cotan_web_test(three_blocks ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} $<TARGET_FILE:cotan> FIXTURES npm)

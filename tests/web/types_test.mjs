@@ -11,7 +11,7 @@ const [tarball, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
 const compiler = path.join(modules, 'typescript/lib/tsc.js');
 if (!fs.existsSync(compiler) || !fs.existsSync(path.join(modules, '@types/three'))) skip('typescript and @types/three are not installed');
-const folder = installed(tarball, modules, ['@gltf-transform', 'property-graph', 'three', '@types']);
+const folder = installed(tarball, modules, ['@gltf-transform', 'property-graph', 'three', 'react', '@react-three', '@types', 'csstype']);
 
 /** Returns the compiler's errors for a program and for the typings of the package. */
 function compiled(name, text) {
@@ -35,7 +35,7 @@ const cases = {
     fs.writeFileSync(path.join(folder, 'from.js'), 'export const from = (name) => import(name);\n');
     const { from } = await import(pathToFileURL(path.join(folder, 'from.js')));
     let text = '';
-    for (const [k, entry] of ['cotan', 'cotan/beside', 'cotan/tangents', 'cotan/tangents/beside', 'cotan/gltf-transform', 'cotan/three', 'cotan/three/tsl', 'cotan/three/relief', 'cotan/three/tsl/relief'].entries()) {
+    for (const [k, entry] of ['cotan', 'cotan/beside', 'cotan/tangents', 'cotan/tangents/beside', 'cotan/gltf-transform', 'cotan/three', 'cotan/three/tsl', 'cotan/three/relief', 'cotan/three/tsl/relief', 'cotan/react'].entries()) {
       const names = Object.keys(await from(entry));
       assert.ok(names.length > 1, entry);
       for (const name of names) assert.match(program('right.ts'), new RegExp(`\\b${name}\\b`), `right.ts does not use ${name} of ${entry}`);

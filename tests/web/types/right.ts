@@ -8,6 +8,7 @@ import { CotanError as ThreeError, replaceFrame, untangle, untangled, type Candi
 import { addRelief, type ReliefOptions, type WithRelief } from 'cotan/three/relief';
 import * as tsl from 'cotan/three/tsl';
 import { addRelief as addReliefToNodes } from 'cotan/three/tsl/relief';
+import { Untangled, useUntangled, type UntangledProps, type UseUntangledOptions } from 'cotan/react';
 import { Document, type Transform } from '@gltf-transform/core';
 import { Material, MeshStandardMaterial, Object3D, Texture } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
@@ -84,4 +85,8 @@ const node = tsl.perturbedNormal(new Texture());
 const deep: ReliefOptions = { heightMap: new Texture(), heightDepth: 0.05, heightSteps: 32, selfShadow: false }, raised: WithRelief<MeshStandardMaterial> = addRelief(material, deep);
 addReliefToNodes(raised, { heightMap: new Texture(), heightDepth: 1 }).heightMap = null;
 
-export { version, sources, mirrored, words, eight, four, two, provoked, green, zero, heights, roughness, texels, names, text, judged, over, glb, advice, notes, known, stay, measured, kept, node };
+// react-three-fiber
+const inReact: UseUntangledOptions = { maxDegrees: 1, untangle: tsl.untangle }, properties: UntangledProps = { object, frame: 'smooth', onDecided: (all) => console.log(all.length), dispose: null, scale: 2 };
+const shown = Untangled(properties), inHook: Decision[] = useUntangled(model, inReact), ofRef: Decision[] = useUntangled({ current: object }), ofNothing: Decision[] = useUntangled(null);
+
+export { shown, inHook, ofRef, ofNothing, version, sources, mirrored, words, eight, four, two, provoked, green, zero, heights, roughness, texels, names, text, judged, over, glb, advice, notes, known, stay, measured, kept, node };
