@@ -102,9 +102,8 @@ fn pbr_input_from_standard_material(in: VertexOutput, is_front: bool) -> PbrInpu
 fn alpha_discard(material: StandardMaterial, output_color: vec4<f32>) -> vec4<f32> {
     return output_color;
 }
-// The normal itself, for tests that read it back.
 fn apply_pbr_lighting(in: PbrInput) -> vec4<f32> {
-    return vec4<f32>(in.N, 1.0);
+    return in.material.base_color;
 }
 fn main_pass_post_lighting_processing(pbr_input: PbrInput, input_color: vec4<f32>) -> vec4<f32> {
     return input_color;

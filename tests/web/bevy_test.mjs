@@ -8,7 +8,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
-import { degrees, drawn, expected, eye, kSheets, vertexShader } from './bevy_draw.mjs';
+import { degrees, drawn, expected, eye, kBevy, kSheets, kStandIns, vertexShader } from './bevy_draw.mjs';
 import { kGpuArguments, launch } from './chromium.mjs';
 import { composed, declared, preprocessed } from './naga_oil.mjs';
 import { emptyFolder, here, runCases, skip } from './shared.mjs';
@@ -79,6 +79,19 @@ function expectNaga(name, text) {
   }
 }
 
+/** Bevy's pbr_functions, with the normal in the place of the lit colour. */
+function showingNormals(text) {
+  text = text.replace(/\/\/.*/g, '');
+  for (const [name, value] of [['apply_pbr_lighting', 'vec4<f32>(in.N, 1.0)'], ['main_pass_post_lighting_processing', 'input_color']]) {
+    const start = text.indexOf('{', text.indexOf(`fn ${name}(`)) + 1;
+    let end = start;
+    for (let open = 1; open > 0; ++end) open += { '{': 1, '}': -1 }[text[end]] ?? 0;
+    text = `${text.slice(0, start)} return ${value}; ${text.slice(end - 1)}`;
+  }
+  return text;
+}
+const kFunctions = 'bevy_pbr::pbr_functions';
+const withoutLight = (sources) => new Map(sources).set(kFunctions, showingNormals(sources.get(kFunctions)));
 /** What a function returns for its argument in a page that has WebGPU. */
 async function inPage(run, argument) {
   if (!fs.existsSync(path.join(modules, 'playwright-core'))) skip('playwright-core is not installed');
@@ -159,7 +172,7 @@ await runCases({
     assert.notEqual(await inPage(compiled, glsl.replaceAll('dFdx(', 'dFd(')), '');
   },
   async theMaterialsNormalsAreThoseOfTheFormula() {
-    const whole = composed(read('src/material.wgsl'), modulesWith(standIns()), { ...kMesh, ...kMap, MATERIAL_BIND_GROUP: 1 });
+    const whole = composed(read('src/material.wgsl'), withoutLight(sources), { ...kMesh, ...kMap }), at = bevy ? kBevy : kStandIns;
     const texel = [200, 90, 220], m = texel.map((c) => (c - 128) / 127), z = Math.sqrt(1 - m[0] ** 2 - m[1] ** 2);
     const kinds = [ // flags as in pbr_types
       { name: 'a map', flags: 0, wanted: m },
@@ -170,9 +183,25 @@ await runCases({
       { name: 'the front of two sides', flags: 16, wanted: m },
     ];
     const cases = Object.entries(kSheets).flatMap(([sheet, shape]) => kinds.map((kind) => ({ ...kind, name: `${sheet}, ${kind.name}`, shape })));
-    const found = await inPage(drawn, cases.map(({ shape, back, flags }) => ({ vertex: vertexShader(shape, back), fragment: whole, texel, eye, flags })));
+    const found = await inPage(drawn, cases.map(({ shape, back, flags }) => ({ vertex: vertexShader(shape, back), fragment: whole, texel, eye, flags, at })));
     cases.forEach(({ name, shape, wanted, side = 1 }, i) => expectNormals(found[i], expected(shape, wanted).map((x) => x * side), 0.01, name));
     assert.throws(() => expectNormals(found[0], expected(kSheets['mirrored uv'], m), 0.01, 'another sheet'));
+  },
+  // Bevy's own material reads 2c - 1, and the sheets' exact tangents.
+  async bevysOwnMaterialWithTangentsAgrees() {
+    if (!bevy) skip('COTAN_BEVY is not set');
+    const pbr = fs.readFileSync(path.join(cratesOfBevy('v0.19.1'), 'crates/bevy_pbr/src/render/pbr.wgsl'), 'utf8'), texel = [200, 90, 220];
+    const sheets = Object.entries(kSheets).filter(([name]) => name !== 'constant uv');
+    const draw = async (text, more) => {
+      const whole = composed(text, withoutLight(sources), { ...kMesh, ...kMap, ...more });
+      return inPage(drawn, sheets.map(([, shape]) => ({ vertex: vertexShader(shape, false, 1), fragment: whole, texel, eye, flags: 0, at: kBevy })));
+    };
+    const own = await draw(pbr, { VERTEX_TANGENTS: true }), without = await draw(pbr, {}), ours = await draw(read('src/material.wgsl'), {});
+    sheets.forEach(([name, shape], i) => {
+      expectNormals(without[i], expected(shape, [0, 0, 1]), 0.01, `${name}, without tangents`); // what the patch is for
+      expectNormals(own[i], expected(shape, texel.map((c) => (2 * c) / 255 - 1)), 0.01, `${name}, Bevy's tangents`);
+      expectNormals(ours[i], own[i].slice(0, 3), 0.4, `${name}, against Bevy's tangents`); // 128 is zero, or 1 of 255
+    });
   },
   async thePatchsTangentsAreThoseOfTheFormula() {
     const lines = fs.readFileSync(kPatch, 'utf8').split('\n').filter((line) => /^\+(?!\+)/.test(line)).map((line) => line.slice(1)).join('\n');
@@ -180,9 +209,9 @@ await runCases({
 struct View { eye: vec3f, mip_bias: f32 }
 struct Material { color: vec4f, uv_transform: mat3x3f, flags: u32 }
 @group(0) @binding(0) var<uniform> view: View;
-@group(1) @binding(0) var<uniform> material: Material;
-@group(1) @binding(9) var map: texture_2d<f32>;
-@group(1) @binding(10) var map_sampler: sampler;
+@group(3) @binding(0) var<uniform> material: Material;
+@group(3) @binding(9) var map: texture_2d<f32>;
+@group(3) @binding(10) var map_sampler: sampler;
 @fragment fn fragment(@location(0) world_position: vec4f, @location(1) world_normal: vec3f, @location(2) uv: vec2f) -> @location(0) vec4f {
     let m = textureSample(map, map_sampler, uv).xyz * (255.0 / 127.0) - 128.0 / 127.0;
     let p = world_position.xyz - view.eye;
@@ -191,10 +220,10 @@ struct Material { color: vec4f, uv_transform: mat3x3f, flags: u32 }
     return vec4f(normalize(m.x * t.xyz + m.y * t.w * cross(n, t.xyz) + m.z * n), 1.0 + f32(material.flags));
 }`;
     const texel = [200, 90, 220], sheets = Object.entries(kSheets).flatMap(([name, shape]) => [[name, shape, false], [`${name}, back`, shape, true]]);
-    const found = await inPage(drawn, sheets.map(([, shape, back]) => ({ vertex: vertexShader(shape, back), fragment, texel, eye, flags: 0 })));
+    const found = await inPage(drawn, sheets.map(([, shape, back]) => ({ vertex: vertexShader(shape, back), fragment, texel, eye, flags: 0, at: kStandIns })));
     sheets.forEach(([name, shape], i) => expectNormals(found[i], expected(shape, texel.map((c) => (c - 128) / 127)), 0.01, name));
   },
-  async thePatchAppliesToItsCommitAndItsShadersCompile() {
+  async thePatchAppliesToItsCommitAndDrawsNormalMapsWithoutTangents() {
     if (!bevy) skip('COTAN_BEVY is not set');
     const place = cratesOfBevy(kCommit), texts = [];
     execFileSync('git', ['apply', '--check', kPatch], { cwd: place, stdio: 'pipe' });
@@ -209,6 +238,13 @@ struct Material { color: vec4f, uv_transform: mat3x3f, flags: u32 }
     }
     const byTint = texts.filter(([name]) => !/MESHLET/.test(name)), found = await inPage(tintErrors, byTint.map(([, text]) => text)); // 64-bit integers are naga's alone
     found.forEach((errors, i) => assert.equal(errors, '', byTint[i][0]));
+    // Bevy's whole material, patched.
+    const functions = path.join(place, 'crates/bevy_pbr/src/render/pbr_functions.wesl'), texel = [200, 90, 220], m = texel.map((c) => (2 * c) / 255 - 1);
+    fs.writeFileSync(functions, showingNormals(fs.readFileSync(functions, 'utf8')));
+    const fragment = await linked(place, 'render/pbr.wesl', { ...always, ...kMap });
+    const cases = Object.entries(kSheets).flatMap(([name, shape]) => [[name, shape, 0, false, 1], [`${name}, back`, shape, 0, true, 1], [`${name}, back of two sides`, shape, 16, true, -1]]);
+    const shown = await inPage(drawn, cases.map(([, shape, flags, back]) => ({ vertex: vertexShader(shape, back), fragment, texel, eye, flags, at: kBevy })));
+    cases.forEach(([name, shape, , , side], i) => expectNormals(shown[i], expected(shape, m).map((x) => x * side), 0.01, `patched, ${name}`));
   },
   normalsOfMapsAreSetExactlyWhereThereAreMaps() {
     const has = (name, word) => wholes.find(([n]) => n === name)[1].split('@fragment')[1].includes(word);
