@@ -140,8 +140,10 @@ def theSameCommitGivesTheSameBytes(folder):
         made("unreal-plugin", again)
         made("godot-addon", again)
         made("godot-addon", folder)
+        made("bevy-crate", again)
+        made("bevy-crate", folder)
         names = sorted(file.name for file in again.iterdir() if file.is_file())
-        assert len(names) == 3, names
+        assert len(names) == 4, names
         for name in names:
             assert (again / name).read_bytes() == (folder / name).read_bytes(), name
 

@@ -37,6 +37,9 @@ if(Python3_FOUND)
   cotan_slow(Web.tool)
 endif()
 
+# The crate for Bevy. With COTAN_BEVY, a clone of Bevy, its shaders take the place of stand-ins.
+cotan_web_test(bevy ARGUMENTS ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
+
 # Compares cotan/three with its defaults, from its sources, with stock three.js.
 cotan_web_test(three_defaults ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} FIXTURES npm)
 
