@@ -26,9 +26,10 @@ void addCompress(Arguments& command, std::string& compress, std::string& swizzle
             "--compress", compress,
             "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
                 + ": none; blocks of one byte per texel, bc5 (x and y only, more exact), bc7 (x, y, z and alpha) or "
-                  "bc3 (x in alpha, y in green, for old engines); uastc (.ktx2; the same for browsers, which turn it into a format of their own); and for phones, in .ktx2, eac-rg11 (x and y, one "
-                  "byte) or astc-4x4 to astc-8x8 (16 bytes for as many texels; x, y and z, or two channels if --to "
-                  "has them)")
+                  "bc3 (x in alpha, y in green, for old engines); in .ktx2, for browsers, which turn it into the "
+                  "format of their device, uastc (x, y and z, one byte); and for phones eac-rg11 (x and y, one byte) "
+                  "or "
+                  "astc-4x4 to astc-8x8 (16 bytes for as many texels; x, y and z, or two channels if --to has them)")
         .in("NAME")
         .offers(compressionWords())
         .under(HelpGroup::output);

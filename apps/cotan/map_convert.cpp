@@ -71,7 +71,8 @@ Result<std::optional<FormatBudget>> budgetOf(const MapConvertCommandOptions& o)
                                            : "--for needs --max-degrees: how much a format may cost");
     if (o.device.empty())
         return std::optional<FormatBudget>();
-    COTAN_TRY(device, valueOf<Device>("--for", o.device, {{"desktop", Device::desktop}, {"mobile", Device::mobile}, {"web", Device::web}}));
+    using enum Device;
+    COTAN_TRY(device, valueOf<Device>("--for", o.device, {{"desktop", desktop}, {"mobile", mobile}, {"web", web}}));
     return std::optional(FormatBudget{ChoiceLimits::of(o.maxDegrees), *device});
 }
 
@@ -190,7 +191,8 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
         .within(0.0, 180.0)
         .in("D")
         .under(HelpGroup::output);
-    a.option("--for", o.device, "with --max-degrees: desktop (bc5 or bc7), mobile (astc of all sizes, eac-rg11) or web (uastc)")
+    a.option("--for", o.device,
+             "with --max-degrees: desktop (bc5 or bc7), mobile (astc of all sizes, eac-rg11) or web (uastc)")
         .in("NAME")
         .offers({"desktop", "mobile", "web"})
         .under(HelpGroup::output);

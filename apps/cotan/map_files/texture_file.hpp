@@ -24,7 +24,7 @@ struct TexelCode {
 
     constexpr TexelCode(Kind k = rgba8) : kind(k) {} // NOLINT(google-explicit-constructor)
     constexpr TexelCode(int w, int h) : kind(astc), width(w), height(h) {}
-    friend bool operator==(const TexelCode& code, Kind kind) { return code.kind == kind; }
+    friend bool operator==(const TexelCode& code, Kind other) { return code.kind == other; }
 
     bool twoChannels() const
     {
