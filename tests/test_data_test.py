@@ -10,7 +10,7 @@ import tempfile
 
 HOME = pathlib.Path(__file__).resolve().parents[1]
 # The only files that know both folders.
-RULES = {"tests/test_data.hpp", "tests/web/data.mjs", "tests/python/conftest.py", "tests/test_data_test.py"}
+RULES = {"tests/test_data.hpp", "tests/web/data.mjs", "tests/python/conftest.py", "tests/engines/godot.py", "tests/test_data_test.py"}
 
 
 def one_rule_finds_all_data():
@@ -36,6 +36,8 @@ def the_rule_is_the_same_in_javascript_and_python():
             assert pathlib.Path(found).resolve() == expected.resolve(), (name, found, expected)
     text = (HOME / "tests/python/conftest.py").read_text(encoding="utf-8")
     assert 'os.environ.get("COTAN_TEST_DATA") != "fetched"' in text and 'source / "build/data" / name' in text
+    text = (HOME / "tests/engines/godot.py").read_text(encoding="utf-8")
+    assert 'os.environ.get("COTAN_TEST_DATA") != "fetched"' in text and 'ROOT / "build/data" / name' in text
 
 
 def without_network_one_line_says_so_and_the_rest_is_made():
