@@ -18,6 +18,12 @@ export const data = path.dirname(dataFile('models'));
 /** Why tests that need data are skipped; '' if the data are there. */
 export const missing = fs.existsSync(path.join(data, 'models')) ? '' : 'there are no models: run scripts/test-data';
 
+/** Whether the first KTX2 of a file is packed with Zstandard. The published models have other packings than those made here. */
+export function hasZstandard(file) {
+  const bytes = fs.readFileSync(file), at = bytes.indexOf(Buffer.from('\xabKTX 20\xbb', 'latin1'));
+  return at >= 0 && bytes.readUInt32LE(at + 44) === 2;
+}
+
 /** Whether a file is the published one of that name, and not a model with the same traits, as isOriginal in
  * tests/test_data.hpp. Numbers that were measured on published files hold for these only. */
 export function isOriginal(name) {

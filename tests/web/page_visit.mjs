@@ -6,9 +6,9 @@ import { createServer } from 'node:http';
 import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, extname, join } from 'node:path';
 import { createRequire } from 'node:module';
-import { data, missing } from './data.mjs';
+import { data, hasZstandard, missing } from './data.mjs';
 
-export { data };
+export { data, hasZstandard };
 
 export const [root, modules, tool, only] = process.argv.slice(2);
 if (!existsSync(join(root, 'index.html'))) {
