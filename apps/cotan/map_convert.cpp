@@ -66,14 +66,15 @@ Status findSource(const MapConvertCommandOptions& o, ConvertFileOptions& options
 // The budget of --max-degrees and --for, which go together.
 Result<std::optional<FormatBudget>> budgetOf(const MapConvertCommandOptions& o)
 {
-    if ((o.maxDegrees > 0) == o.device.empty())
-        return usageError(o.device.empty() ? "--max-degrees needs --for: whose formats to choose from"
-                                           : "--for needs --max-degrees: how much a format may cost");
-    if (o.device.empty())
-        return std::optional<FormatBudget>();
     using enum Device;
-    COTAN_TRY(device, valueOf<Device>("--for", o.device, {{"desktop", desktop}, {"mobile", mobile}, {"web", web}}));
-    return std::optional(FormatBudget{ChoiceLimits::of(o.maxDegrees), *device});
+    const bool chooses = !o.device.empty();
+    COTAN_TRY(device,
+              valueOf<Device>("--for", chooses ? o.device : "mobile",
+                              {{"desktop", desktop}, {"mobile", mobile}, {"web", web}}));
+    if ((o.maxDegrees > 0) != chooses)
+        return usageError(chooses ? "--for needs --max-degrees: how much a format may cost"
+                                  : "--max-degrees needs --for: whose formats to choose from");
+    return chooses ? std::optional(FormatBudget{ChoiceLimits::of(o.maxDegrees), *device}) : std::nullopt;
 }
 
 // The formats that were tried, as a table.
