@@ -9,7 +9,6 @@
 #include "cotan/convention.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
-#include "map_files/model_texture.hpp"
 #include "parse.hpp"
 #include "picture_options.hpp"
 #include "scene/normal_maps.hpp"
@@ -183,16 +182,13 @@ Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
     options.bake.frame = *frame;
     COTAN_TRY(format, formatOfMap(o.convention, o.expansion, namedAsGltf(o.output)));
     options.stored.format = *format;
-    if (o.compress != "none") {
-        const auto code = modelCodeFor(o.compress);
-        if (!code)
-            return withOptionNames(code.error());
-        if (!namedAsGltf(o.output))
-            return usageError(fmt::format("--compress: expected -o MODEL.glb or .gltf, which stores its normal maps as "
-                                          "blocks (map mips does so for a map); found '{}'",
-                                          o.output.string()));
-        job.compress = *code;
-    }
+    COTAN_TRY(compress, parseModelCompress(o.compress));
+    job.compress = *compress;
+    if (job.compress && !namedAsGltf(o.output))
+        return usageError(
+            fmt::format("--compress: expected -o MODEL.glb or .gltf, which stores its normal maps as blocks "
+                        "(map mips does so for a map); found '{}'",
+                        o.output.string()));
     COTAN_CHECK(parseHigh(o, job));
     COTAN_CHECK(checkRays(job));
     return job;

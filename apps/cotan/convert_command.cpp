@@ -100,13 +100,8 @@ Result<ConvertJob> jobOf(const ConvertCommandOptions& o)
     if (verifies && std::filesystem::equivalent(o.model, o.output, ignored))
         return usageError(fmt::format("--verify: compares with {}, which -o replaces; expected another -o", o.model));
     const LoadLimits limits = limitsFor(o.verify.memory, chooses ? Pixels::normalMaps : Pixels::none);
-    ConvertJob job{o.model, limits, o.maps, o.from.empty(), o.provoking, o.output, {}, o.verify};
-    if (o.compress != "none") {
-        const auto code = modelCodeFor(o.compress);
-        if (!code)
-            return withOptionNames(code.error());
-        job.compress = *code;
-    }
+    COTAN_TRY(compress, parseModelCompress(o.compress));
+    ConvertJob job{o.model, limits, o.maps, o.from.empty(), o.provoking, o.output, *compress, o.verify};
     job.maps->frames.from = *from;
     job.maps->frames.to = *to;
     if (chooses)

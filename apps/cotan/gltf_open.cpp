@@ -4,6 +4,7 @@
 
 #include "cotan/model.hpp"
 #include "files/bytes.hpp"
+#include "loading.hpp"
 #include "map_files/model_texture.hpp"
 
 namespace cotan::app {
@@ -51,6 +52,14 @@ void addModelCompress(Arguments& command, std::string& compress)
                 "every browser and device) or astc-4x4 to astc-8x8 (EXT_texture_astc, for phones)")
         .in("NAME")
         .offers(modelCompressionWords());
+}
+
+Result<std::optional<TexelCode>> parseModelCompress(const std::string& compress)
+{
+    if (compress == "none")
+        return std::optional<TexelCode>();
+    const auto code = modelCodeFor(compress);
+    return code ? Result<std::optional<TexelCode>>(*code) : withOptionNames(code.error());
 }
 
 } // namespace cotan::app

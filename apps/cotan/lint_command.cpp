@@ -111,6 +111,11 @@ Result<LintResult> lint(const LintJob& job, const CommonOptions& terminal)
 
 // ---- the report -----------------------------------------------------------------------------
 
+std::string nameOf(const GreenEvidence& map)
+{
+    return map.name.empty() ? fmt::format("image {}", map.image) : map.name;
+}
+
 std::vector<std::string> linesOf(const LintJob& job, const LintResult& done)
 {
     std::vector<std::string> lines = verdictLines(job.model, done.report, done.command);
@@ -121,9 +126,7 @@ std::vector<std::string> linesOf(const LintJob& job, const LintResult& done)
         if (job.details && done.blocks[i].empty())
             continue;
         std::string line =
-            fmt::format("as blocks, {} would be off by these degrees, mean and 99 %:",
-                        done.report.maps[i].name.empty() ? fmt::format("image {}", done.report.maps[i].image)
-                                                         : done.report.maps[i].name);
+            fmt::format("as blocks, {} would be off by these degrees, mean and 99 %:", nameOf(done.report.maps[i]));
         for (const TriedFormat& format : done.blocks[i])
             line += fmt::format(" {} {:.2f}, {:.1f};", format.compress, format.meanDegrees, format.percentile99);
         line.back() = '.';
@@ -167,11 +170,7 @@ Json toJson(const LintJob& job, const LintResult& done)
     Json blocks = Json::array();
     for (std::size_t i = 0; i < done.blocks.size(); ++i)
         for (const TriedFormat& format : done.blocks[i])
-            blocks.push_back({{"map", done.report.maps[i].name},
-                              {"compress", format.compress},
-                              {"bits_per_texel", format.bitsPerTexel},
-                              {"mean_degrees", format.meanDegrees},
-                              {"percentile99_degrees", format.percentile99}});
+            blocks.emplace_back(Json{{"map", done.report.maps[i].name}}).update(toJson(format));
     j["as_blocks"] = blocks;
     j["check"] = toJson(done.check);
     j["over_limit"] = overLimits(done.check);
@@ -191,8 +190,7 @@ Status run(const LintCommandOptions& o)
         warn(terminal, line);
     for (const GreenEvidence& map : done->report.maps)
         if (!map.note.empty())
-            warn(terminal, "normal map {}: {}", map.name.empty() ? fmt::format("image {}", map.image) : map.name,
-                 map.note);
+            warn(terminal, "normal map {}: {}", nameOf(map), map.note);
     for (const std::string& line : linesOf(*job, *done))
         say(terminal, line);
     COTAN_CHECK(writeReport(terminal, toJson(*job, *done)));

@@ -136,10 +136,7 @@ Status run(const MapConvertCommandOptions& o)
     say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bits, describe(done->to));
     Json tried = Json::array();
     for (const TriedFormat& format : done->tried)
-        tried.push_back({{"compress", format.compress},
-                         {"bits_per_texel", format.bitsPerTexel},
-                         {"mean_degrees", format.meanDegrees},
-                         {"percentile99_degrees", format.percentile99}});
+        tried.push_back(toJson(format));
     return writeReport(o,
                        {{"command", "map convert"},
                         {"file", o.file},

@@ -89,10 +89,9 @@ UastcEndpoints takeEndpoints(UastcBits& bits, const UastcMode& mode, int subsets
 {
     const int count = 2 * mode.channels * subsets;
     std::array<int, 18> digits{};
-    const int group = mode.levels == 3 ? 5 : 3; // digits that are packed together
+    const int group = uastcDigitsOfGroup(mode.levels);
     for (int first = 0; mode.levels > 1 && first < count; first += group) {
-        constexpr std::array<int, 6> kTritBits{0, 2, 4, 5, 7, 8}; // of fewer digits in the last group
-        int packed = bits.take(mode.levels == 3 ? kTritBits[std::size_t(std::min(group, count - first))] : 7);
+        int packed = bits.take(uastcBitsOfGroup(mode.levels, std::min(group, count - first)));
         for (int i = first; i < std::min(first + group, count); ++i, packed /= mode.levels)
             digits[std::size_t(i)] = packed % mode.levels;
     }

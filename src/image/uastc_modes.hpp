@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace cotan {
@@ -63,6 +64,14 @@ inline int uastcEndpoint(int levels, int digit, int bits, int low)
     }
     const int sum = (digit * scale + offset) ^ invert;
     return (invert & 0x80) | sum >> 2;
+}
+
+// Digits of endpoints are packed together: five trits in 8 bits, three quints in 7; fewer trits in the last group.
+constexpr int uastcDigitsOfGroup(int levels) { return levels == 3 ? 5 : 3; }
+constexpr int uastcBitsOfGroup(int levels, int digits)
+{
+    constexpr std::array<int, 6> kTritBits{0, 2, 4, 5, 7, 8};
+    return levels == 3 ? kTritBits[std::size_t(digits)] : 7;
 }
 
 // A weight of 0 to 64.

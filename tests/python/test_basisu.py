@@ -175,3 +175,23 @@ def test_maps_that_the_tool_writes_as_uastc_are_read_by_the_transcoder(tmp_path,
         off = np.abs(truth[..., :3].astype(int) - texels[..., :3])
         assert off.mean() < (6 if name == "normals" else 0.6), name # noise of 19 steps; one colour is exact to a step
         assert (truth[..., 3] == 255).all()
+
+
+def test_maps_of_the_tool_have_no_more_error_than_those_of_binomials_encoder(tmp_path, command):
+    """In degrees, which the tool minimises. A small part of a map may be lucky: at most 2 % more."""
+    y, x = np.mgrid[0:47, 0:61]
+    slope = np.stack([0.5 * np.cos(x / 6), 0.4 * np.sin(y / 5 + x / 9), np.ones(x.shape)], -1)
+    smooth = np.rint((slope / np.linalg.norm(slope, axis=-1, keepdims=True) + 1) * 127.5)
+    sources = {"normals": maps()["normals"], "smooth": np.concatenate([smooth, np.full((47, 61, 1), 255.0)], -1).astype(np.uint8)}
+
+    def degrees(image, texels):
+        a, b = (v[..., :3] / 127.5 - 1.0 for v in (image, texels))
+        cosine = (a * b).sum(-1) / np.linalg.norm(a, axis=-1) / np.linalg.norm(b, axis=-1)
+        return np.degrees(np.arccos(np.clip(cosine, -1, 1))).mean()
+
+    judged(tmp_path, [(name, texels, KINDS["uastc"]) for name, texels in sources.items()])
+    for name, texels in sources.items():
+        cotan.write_image(tmp_path / f"{name}.png", texels)
+        command("map", "convert", tmp_path / f"{name}.png", "--from", "gltf", "--to", "gltf", "--compress", "uastc", "-o", tmp_path / "own.ktx2", "--overwrite")
+        own, theirs = degrees(cotan.read_image(tmp_path / "own.ktx2"), texels), degrees(wanted(tmp_path, name, texels.shape[:2]), texels)
+        assert 0 < own < 1.02 * theirs, f"{name}: {own} and {theirs}"

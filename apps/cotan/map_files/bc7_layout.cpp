@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "block_texels.hpp"
+
 namespace cotan::app::bc7 {
 
 const std::array<std::uint16_t, 64> kTwoSubsets{
@@ -40,21 +42,6 @@ int anchorOf(int subsets, int partition, int subset)
     return digit(digits[partition]);
 }
 
-// Writes bits, lowest first.
-class Bits {
-public:
-    explicit Bits(std::byte* to) : to_(to) { std::fill(to, to + 16, std::byte(0)); }
-    void put(int value, int count)
-    {
-        for (int i = 0; i < count; ++i, ++at_)
-            to_[at_ / 8] |= std::byte((value >> i & 1) << at_ % 8);
-    }
-
-private:
-    std::byte* to_;
-    std::size_t at_ = 0;
-};
-
 } // namespace
 
 void write(Block block, std::byte* to)
@@ -89,7 +76,7 @@ void write(Block block, std::byte* to)
                 std::swap_ranges(first.begin(), first.begin() + 3, last.begin());
         }
     }
-    Bits bits(to);
+    BlockBits bits(to);
     bits.put(1 << block.mode, block.mode + 1);
     bits.put(block.partition, mode.partitionBits);
     bits.put(block.rotation, mode.rotationBits);

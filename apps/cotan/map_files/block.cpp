@@ -93,6 +93,14 @@ template<class V> struct EndsLanes {
     }
 };
 
+// Rounds to an integer of 0 to `most`.
+template<class V> [[gnu::always_inline]] inline V roundedWithin(V value, float most)
+{
+    const V zero{};
+    value = value > zero ? value : zero;
+    return rounded(value < zero + most ? value : zero + most);
+}
+
 // Weighted sums of squared errors.
 struct EndsErrors {
     const Ends& around;
@@ -107,11 +115,7 @@ struct EndsErrors {
             const auto& [low, step, inverse] = ends;
             V sum{};
             for (std::size_t i = 0; i < 16; ++i) {
-                constexpr float kNoFractions = 12582912; // as rounded()
-                const V above = values[i / 4][i % 4] - low, zero{};
-                V position = above * inverse;
-                position = position > zero ? position : zero;
-                position = (position < zero + 7 ? position : zero + 7) + kNoFractions - kNoFractions;
+                const V above = values[i / 4][i % 4] - low, position = roundedWithin(above * inverse, 7);
                 const V off = above - position * step;
                 sum += weights[i / 4][i % 4] * (off * off);
             }
@@ -222,11 +226,7 @@ struct AngleErrors {
             const auto& [low, step, inverse] = ends;
             V sum{};
             for (std::size_t i = 0; i < 16; ++i) {
-                constexpr float kNoFractions = 12582912; // as rounded()
-                const V zero{}, below = low - values[i / 4][i % 4];
-                V position = below * -inverse - 0.5f;
-                position = position > zero ? position : zero;
-                position = (position < zero + 6 ? position : zero + 6) + kNoFractions - kNoFractions;
+                const V below = low - values[i / 4][i % 4], position = roundedWithin(below * -inverse - 0.5f, 6);
                 const V e0 = below + position * step, e1 = e0 + step;
                 const float n = near[i / 4][i % 4], f = far[i / 4][i % 4], slope = slopes[i / 4][i % 4];
                 const float alongN = otherSlopes[i / 4][i % 4] * n, alongF = otherSlopes[i / 4][i % 4] * f;

@@ -45,7 +45,7 @@ inline Four rootOf(Four f)
 }
 
 // Rounds to the nearest integer; values must be below 2^22, where the added constant leaves no bits for fractions.
-inline Four rounded(Four f)
+template<class V> [[gnu::always_inline]] inline V rounded(V f)
 {
     constexpr float kNoFractions = 12582912;
     return f + kNoFractions - kNoFractions;
@@ -158,6 +158,21 @@ inline NormalTexels normalTexels(const Image& map, int left, int top, const Code
     }
     return t;
 }
+
+// Fills a block of 16 bytes, from the lowest bit of the first byte upwards.
+class BlockBits {
+public:
+    explicit BlockBits(std::byte* to) : to_(to) { std::fill_n(to, 16, std::byte(0)); }
+    void put(int value, int count)
+    {
+        for (int i = 0; i < count; ++i, ++at_)
+            to_[at_ / 8] |= std::byte((value >> i & 1) << at_ % 8);
+    }
+
+private:
+    std::byte* to_;
+    std::size_t at_ = 0;
+};
 
 // Encodes one channel of a block as BC4, and as the alpha of BC3: 8 bytes. values: codes; weights: of their squared
 // errors.

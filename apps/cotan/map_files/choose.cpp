@@ -65,7 +65,31 @@ Image sampleOf(const Image& map)
     return sample;
 }
 
+// A level in a format, with what it costs.
+struct TriedLevel {
+    TriedFormat format;
+    TextureLevel level;
+};
+
+// texels: what is stored; map: what it is compared with, in the convention `read`. to: how the texture is read.
+Result<TriedLevel> tryFormat(const std::string& word, const TexelCode& code, const Image& texels, const Image& map,
+                             const Convention& read, const Convention& to)
+{
+    COTAN_TRY(level, levelOf(texels, code, to));
+    const std::string bytes = ktx2Bytes(code, {*level}, {});
+    COTAN_TRY(cost, costOf(map, read, std::as_bytes(std::span(bytes)), storedConvention(code, to)));
+    return TriedLevel{{word, bitsPerTexel(code), cost->mean, cost->percentile99}, *std::move(level)};
+}
+
 } // namespace
+
+Json toJson(const TriedFormat& format)
+{
+    return {{"compress", format.compress},
+            {"bits_per_texel", format.bitsPerTexel},
+            {"mean_degrees", format.meanDegrees},
+            {"percentile99_degrees", format.percentile99}};
+}
 
 std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention)
 {
@@ -80,20 +104,15 @@ std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention)
         maps::RecodeCounts counts;
         const Convention taken = codeConvention(*code, to);
         const Image given = recode(sample, {.from = convention, .to = taken, .type = PixelType::float32}, counts);
-        const auto level = levelOf(given, *code, to);
-        if (!level)
-            continue;
-        const std::string bytes = ktx2Bytes(*code, {*level}, {});
-        const auto cost = costOf(given, taken, std::as_bytes(std::span(bytes)), to);
-        if (cost)
-            costs.push_back({word, bitsPerTexel(*code), cost->mean, cost->percentile99});
+        if (const auto tried = tryFormat(word, *code, given, given, taken, to))
+            costs.push_back(tried->format);
     }
     return costs;
 }
 
-Result<ChosenFormat> chooseFormat(const Image& map, const Image& pixels, const Convention& to,
-                                  const std::string& swizzle, const std::filesystem::path& file,
-                                  const FormatBudget& budget, const FileOptions& files)
+Result<ChosenFormat> chooseFormat(const Image& map, const Convention& to, const std::string& swizzle, bool dither,
+                                  const std::filesystem::path& file, const FormatBudget& budget,
+                                  const FileOptions& files)
 {
     COTAN_TRY(candidates, candidatesFor(to, swizzle, file, budget.device));
     Convention stored = to;
@@ -106,17 +125,20 @@ Result<ChosenFormat> chooseFormat(const Image& map, const Image& pixels, const C
             break;
         if (!steps.step())
             return stoppedError();
-        COTAN_TRY(level, levelOf(candidate.code == TexelCode::rgba8 ? pixels : map, candidate.code, to));
-        const std::string bytes = ktx2Bytes(candidate.code, {*level}, {});
-        COTAN_TRY(cost, costOf(map, stored, std::as_bytes(std::span(bytes)), storedConvention(candidate.code, to)));
-        chosen.tried.push_back({candidate.word, candidate.bits, cost->mean, cost->percentile99});
-        if (cost->mean > budget.limits.mean || cost->percentile99 > budget.limits.percentile99
-            || (best && cost->mean >= best->meanDegrees))
+        Image pixels; // of a texture without blocks
+        maps::RecodeCounts counts;
+        if (candidate.code == TexelCode::rgba8)
+            pixels = recode(map, {.from = stored, .to = to, .type = PixelType::unorm8, .dither = dither}, counts);
+        COTAN_TRY(tried,
+                  tryFormat(candidate.word, candidate.code, pixels.data.empty() ? map : pixels, map, stored, to));
+        const TriedFormat& cost = chosen.tried.emplace_back(tried->format);
+        if (cost.meanDegrees > budget.limits.mean || cost.percentile99 > budget.limits.percentile99
+            || (best && cost.meanDegrees >= best->meanDegrees))
             continue;
-        best = chosen.tried.back();
+        best = cost;
         chosen.compress = candidate.word;
         chosen.code = candidate.code;
-        chosen.level = *std::move(level);
+        chosen.level = std::move(tried->level);
     }
     if (best)
         return chosen;

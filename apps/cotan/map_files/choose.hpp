@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cotan/frame_choice.hpp"
+#include "files/json.hpp"
 #include "map_file.hpp"
 #include "texture_file.hpp"
 
@@ -23,6 +24,9 @@ struct TriedFormat {
     double bitsPerTexel = 0, meanDegrees = 0, percentile99 = 0;
 };
 
+// {"compress", "bits_per_texel", "mean_degrees", "percentile99_degrees"}
+Json toJson(const TriedFormat& format);
+
 struct ChosenFormat {
     std::string compress; // the word of --compress
     TexelCode code;
@@ -32,13 +36,13 @@ struct ChosenFormat {
 
 // The smallest format within the budget; of equally small ones that with the least mean angle. Larger formats than the
 // chosen one are not tried.
-// map: float32, the map in codeConvention of blocks; pixels: unorm8, the same in `to`, for a texture without blocks.
-// to: with three channels the formats hold three, with two, two. swizzle: a word of swizzleWords; formats that cannot
-// have it are left out. file: the texture's name, for its container.
+// map: float32, in `to` with biased expansion, as blocks need it. to: with three channels the formats hold three, with
+// two, two. swizzle: a word of swizzleWords; formats that cannot have it are left out. dither: of pixels. file: the
+// texture's name, for its container.
 // Errors: ErrorKind::usage as codeFor; ErrorKind::limit if none is within; ErrorKind::stopped.
-Result<ChosenFormat> chooseFormat(const Image& map, const Image& pixels, const Convention& to,
-                                  const std::string& swizzle, const std::filesystem::path& file,
-                                  const FormatBudget& budget, const FileOptions& files);
+Result<ChosenFormat> chooseFormat(const Image& map, const Convention& to, const std::string& swizzle, bool dither,
+                                  const std::filesystem::path& file, const FormatBudget& budget,
+                                  const FileOptions& files);
 
 // What the formats of models and engines would cost a normal map of three channels, read in `convention`: uastc, bc7,
 // astc-6x6 and astc-8x8, and of two channels bc5 and eac-rg11. Large maps are sampled: 64 squares of 24 texels a side.

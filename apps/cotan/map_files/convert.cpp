@@ -66,14 +66,11 @@ Status writeTexture(const std::filesystem::path& out, const Image& map, const Te
     return writeTextureFile(out, code, {*std::move(level)}, map.frame);
 }
 
-// Writes the texture that fits the budget. map: in codeConvention of blocks.
-Status writeChosen(const std::filesystem::path& out, const Image& map, const RecodeSettings& settings,
-                   const ConvertFileOptions& o, const FileOptions& files, ConvertedFile& done)
+// Writes the texture that fits the budget. map: as chooseFormat takes it.
+Status writeChosen(const std::filesystem::path& out, const Image& map, const ConvertFileOptions& o,
+                   const FileOptions& files, ConvertedFile& done)
 {
-    RecodeCounts again;
-    const Image pixels =
-        recode(map, {.from = settings.to, .to = o.to, .type = PixelType::unorm8, .dither = o.dither}, again);
-    COTAN_TRY(chosen, chooseFormat(map, pixels, o.to, o.swizzle, out, *o.budget, files));
+    COTAN_TRY(chosen, chooseFormat(map, o.to, o.swizzle, o.dither, out, *o.budget, files));
     done.compress = chosen->compress;
     done.tried = chosen->tried;
     done.to = storedConvention(chosen->code, o.to);
@@ -150,7 +147,7 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
               o.mesh ? convertByMesh(map, *o.mesh, settings, files, done) : convertWhole(map, settings, files, done));
     converted->frame = done.frame;
     if (o.budget) {
-        const Status written = writeChosen(out, *converted, settings, o, files, done);
+        const Status written = writeChosen(out, *converted, o, files, done);
         return written ? Result<ConvertedFile>(done) : written.error();
     }
     if (!isTextureFile(out))

@@ -13,6 +13,7 @@
 
 #include "block.hpp"
 #include "block_texels.hpp"
+#include "image/etc.hpp"
 #include "image/uastc_modes.hpp"
 #include "uastc_fit.hpp"
 
@@ -22,28 +23,11 @@ namespace uastc {
 
 namespace {
 
-// Bits from the lowest of the first byte upwards.
-class Bits {
-public:
-    explicit Bits(std::byte* to) : to_(to) { std::fill_n(to, 16, std::byte(0)); }
-    void put(int value, int count)
-    {
-        for (int i = 0; i < count; ++i, ++at_)
-            to_[at_ / 8] |= std::byte((value >> i & 1) << at_ % 8);
-    }
-
-private:
-    std::byte* to_;
-    int at_ = 0;
-};
-
 // How a transcoder to ETC1 cuts the block and which table of modifiers each half has. Those with the least error for
 // the mean colour of a half, whose brightness the modifiers change.
 struct Etc1Hint {
     int flip = 0, tables[2] = {};
 };
-
-constexpr int kModifiers[8][2] = {{2, 8}, {5, 17}, {9, 29}, {13, 42}, {18, 60}, {24, 80}, {33, 106}, {47, 183}};
 
 Etc1Hint etc1Hint(const Texels& t)
 {
@@ -64,7 +48,7 @@ Etc1Hint etc1Hint(const Texels& t)
                     if (!inside(i))
                         continue;
                     float nearest = 1e30f;
-                    for (const int modifier : kModifiers[table])
+                    for (const int modifier : kEtcModifiers[std::size_t(table)])
                         for (const int sign : {-1, 1}) {
                             const glm::vec3 off = mean + float(sign * modifier) - t.codes[i];
                             nearest = std::min(nearest, glm::dot(off, off));
@@ -89,7 +73,7 @@ Etc1Hint etc1Hint(const Texels& t)
 // One colour: the code, red to alpha, then the same for ETC1: differential, table, selector, and its base of 5 bits.
 void putSolid(const glm::ivec3& color, std::byte* to)
 {
-    Bits bits(to);
+    BlockBits bits(to);
     bits.put(kUastcModes[kSolidUastc].code, kUastcModes[kSolidUastc].codeBits);
     for (int c = 0; c < 3; ++c)
         bits.put(color[c], 8);
@@ -99,7 +83,8 @@ void putSolid(const glm::ivec3& color, std::byte* to)
     glm::ivec3 best(0);
     for (int table = 0; table < 8; ++table)
         for (int selector = 0; selector < 4; ++selector) { // from the darkest to the brightest
-            const int modifier = selector < 2 ? -kModifiers[table][1 - selector] : kModifiers[table][selector - 2];
+            const auto& [small, large] = kEtcModifiers[std::size_t(table)];
+            const int modifier = std::array{-large, -small, small, large}[std::size_t(selector)];
             glm::ivec3 base(0);
             int error = 0;
             for (int c = 0; c < 3; ++c) {
@@ -120,7 +105,7 @@ void putSolid(const glm::ivec3& color, std::byte* to)
         bits.put(best[c], 5);
 }
 
-void putEnds(Bits& bits, const Block& b, std::size_t subsets)
+void putEnds(BlockBits& bits, const Block& b, std::size_t subsets)
 {
     const UastcMode& mode = kUastcModes[b.mode];
     std::vector<EndpointValue> values;
@@ -128,15 +113,13 @@ void putEnds(Bits& bits, const Block& b, std::size_t subsets)
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t e = 0; e < 2; ++e)
                 values.push_back(endpointValues(b.mode)[std::size_t(b.ends[s][e][c])]);
-    // Digits are packed in groups: five trits in 8 bits, fewer in 2, 4, 5 or 7; three quints in 7.
-    const std::size_t group = mode.levels == 3 ? 5 : 3;
+    const auto group = std::size_t(uastcDigitsOfGroup(mode.levels));
     for (std::size_t first = 0; mode.levels > 1 && first < values.size(); first += group) {
-        constexpr std::array<int, 6> kTritBits{0, 2, 4, 5, 7, 8};
         const std::size_t count = std::min(group, values.size() - first);
         int packed = 0;
         for (std::size_t i = first + count; i-- > first;)
             packed = packed * mode.levels + values[i].digit;
-        bits.put(packed, mode.levels == 3 ? kTritBits[count] : 7);
+        bits.put(packed, uastcBitsOfGroup(mode.levels, int(count)));
     }
     for (const EndpointValue& value : values)
         bits.put(value.low, mode.endpointBits);
@@ -166,7 +149,7 @@ void put(Block b, const Etc1Hint& hint, std::byte* to)
 {
     const UastcMode& mode = kUastcModes[b.mode];
     settleAnchors(b);
-    Bits bits(to);
+    BlockBits bits(to);
     bits.put(mode.code, mode.codeBits);
     bits.put(0, 2); // no hints for BC1
     bits.put(hint.flip, 1);
