@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cotan/gltf.hpp"
@@ -96,18 +97,27 @@ TEST(ConvertCompress, texturesHaveAllTheirLevels)
     }
 }
 
+// One side suffices.
 TEST(ConvertCompress, aMapWhoseSidesAreNoMultiplesOfFourStaysUnderUastc)
 {
-    const TemporaryFolder folder;
-    writeCoated(folder, 62);
-    const json report = converted(folder, "uastc", "out.gltf");
-    ASSERT_EQ(report["compressed"].size(), 1u);
-    EXPECT_EQ(report["compressed"][0]["name"], "waves.png");
-    ASSERT_EQ(report["notes"].size(), 1u) << report["notes"];
-    EXPECT_NE(report["notes"][0].get<std::string>().find("coat.png: 62 x 62 texels; stays as it is"),
-              std::string::npos);
-    EXPECT_EQ(rootOfFile(folder / "out.gltf")["textures"][1]["source"], 1);
-    EXPECT_EQ(converted(folder, "astc-4x4", "astc.gltf")["compressed"].size(), 2u);
+    for (const auto& [width, height] : {std::pair(62, 62), {62, 64}, {64, 62}}) {
+        const TemporaryFolder folder;
+        writeCoated(folder, 64);
+        Image coat = makeImage(width, height, PixelType::unorm8);
+        const Image domes = makeReliefMap(Relief::domes, 64);
+        for (int row = 0; row < height; ++row)
+            std::copy_n(domes.bytes8() + 4 * 64 * row, 4 * width, coat.bytes8() + 4 * width * row);
+        ASSERT_TRUE(writeImage(folder / "coat.png", coat));
+        const json report = converted(folder, "uastc", "out.gltf");
+        ASSERT_EQ(report["compressed"].size(), 1u) << width << " x " << height;
+        EXPECT_EQ(report["compressed"][0]["name"], "waves.png");
+        ASSERT_EQ(report["notes"].size(), 1u) << report["notes"];
+        EXPECT_NE(report["notes"][0].get<std::string>().find(
+                      fmt::format("coat.png: {} x {} texels; stays as it is", width, height)),
+                  std::string::npos);
+        EXPECT_EQ(rootOfFile(folder / "out.gltf")["textures"][1]["source"], 1);
+        EXPECT_EQ(converted(folder, "astc-4x4", "astc.gltf")["compressed"].size(), 2u);
+    }
 }
 
 // The colours read the image of the coat's map: that image stays, and a copy of the texture reads the blocks.

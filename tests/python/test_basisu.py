@@ -177,8 +177,8 @@ def test_maps_that_the_tool_writes_as_uastc_are_read_by_the_transcoder(tmp_path,
         assert (truth[..., 3] == 255).all()
 
 
-def test_maps_of_the_tool_have_no_more_error_than_those_of_binomials_encoder(tmp_path, command):
-    """In degrees, which the tool minimises. A small part of a map may be lucky: at most 2 % more."""
+def test_maps_of_the_tool_have_less_error_than_those_of_binomials_encoder(tmp_path, command):
+    """In degrees, which the tool minimises: 7 % less on both maps; a fit of the ends that does nothing loses that."""
     y, x = np.mgrid[0:47, 0:61]
     slope = np.stack([0.5 * np.cos(x / 6), 0.4 * np.sin(y / 5 + x / 9), np.ones(x.shape)], -1)
     smooth = np.rint((slope / np.linalg.norm(slope, axis=-1, keepdims=True) + 1) * 127.5)
@@ -194,4 +194,4 @@ def test_maps_of_the_tool_have_no_more_error_than_those_of_binomials_encoder(tmp
         cotan.write_image(tmp_path / f"{name}.png", texels)
         command("map", "convert", tmp_path / f"{name}.png", "--from", "gltf", "--to", "gltf", "--compress", "uastc", "-o", tmp_path / "own.ktx2", "--overwrite")
         own, theirs = degrees(cotan.read_image(tmp_path / "own.ktx2"), texels), degrees(wanted(tmp_path, name, texels.shape[:2]), texels)
-        assert 0 < own < 1.02 * theirs, f"{name}: {own} and {theirs}"
+        assert 0 < own < 0.95 * theirs, f"{name}: {own} and {theirs}"
