@@ -10,6 +10,7 @@
 #include <optional>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "core/loops.hpp"
 #include "cotan/render.hpp"
@@ -372,6 +373,27 @@ TEST(Environment, theStoredStudioEqualsAComputedOne)
     EXPECT_NE(builtinEnvironment("studio", {.rotation = 0, .intensity = 2})->atlas.data, made.atlas.data);
     EXPECT_NE(builtinEnvironment("studio", {.rotation = 1, .intensity = 1})->atlas.data, made.atlas.data);
     EXPECT_FALSE(builtinEnvironment("nowhere"));
+}
+
+// An upright plate of metal, seen from slightly above, whose normals an engraving tilts up and down by 8 degrees. Where
+// the room is the same in all directions that it reflects, all walls of the engraving look alike.
+TEST(Environment, theStudioShowsReliefOnUprightMetals)
+{
+    const auto studio = builtinEnvironment("studio");
+    ASSERT_TRUE(studio);
+    for (const float across : {0.0f, 20.0f})
+        for (const float above : {10.0f, 15.0f, 20.0f}) {
+            const float a = glm::radians(across), e = glm::radians(above), tilt = glm::radians(8.0f);
+            const vec3 toCamera(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
+            float brightest = 0, darkest = 1e9f;
+            for (const float side : {-1.0f, 0.0f, 1.0f}) {
+                const vec3 normal(0, side * std::sin(tilt), std::cos(tilt)); // of the plate or of a wall
+                const float radiance = radianceAlong(*studio, glm::reflect(-toCamera, glm::normalize(normal)), 0.25f).y;
+                brightest = std::max(brightest, radiance);
+                darkest = std::min(darkest, radiance);
+            }
+            EXPECT_GT(brightest, 1.5f * darkest) << across << " to the right, " << above << " above";
+        }
 }
 
 TEST(Environment, theAtlasHasTheSameBytesForAnyNumberOfThreads)

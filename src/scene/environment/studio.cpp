@@ -38,8 +38,9 @@ struct SoftBox {
     }
 };
 
-// Grey walls that darken upwards, a floor brightened by the lights, a large box on the front left, a lower one on the
-// right, a ceiling light, and two strips at the sides, slightly behind, for rim light. Models face +z.
+// Grey walls that darken upwards, a floor with a pool of light around the model, a large box on the front left, a lower
+// one on the right, a ceiling light, two strips at the sides, slightly behind, for rim light, and a narrow card in front
+// on the floor: seen from slightly above, upright metals reflect its edges, which shows their relief. Models face +z.
 glm::vec3 studio(glm::vec3 d)
 {
     static const SoftBox key{glm::vec3(-0.75f, 0.62f, 0.75f), 0.55f, 0.5f, 0.05f};
@@ -47,12 +48,15 @@ glm::vec3 studio(glm::vec3 d)
     static const SoftBox ceiling{glm::vec3(0, 1, 0), 0.75f, 0.35f, 0.06f};
     static const SoftBox left{glm::vec3(-1, 0.25f, -0.2f), 0.16f, 0.8f, 0.03f};
     static const SoftBox right{glm::vec3(1, 0.3f, -0.35f), 0.16f, 0.8f, 0.03f};
+    static const SoftBox card{glm::vec3(0, -0.27f, 1), 0.8f, 0.09f, 0.025f};
     const glm::vec3 wall = glm::vec3(0.30f, 0.30f, 0.31f) * (1 - 0.55f * smooth(0, 0.9f, d.y));
-    const glm::vec3 floor = glm::vec3(0.34f, 0.33f, 0.32f) * (1 - 0.35f * smooth(0, 1, -d.y));
+    const glm::vec3 paper(1, 0.985f, 0.96f);
+    const glm::vec3 floor = paper * glm::mix(0.04f, 0.7f, smooth(0.3f, 0.7f, -d.y));
     glm::vec3 c = glm::mix(floor, wall, smooth(-0.12f, 0.12f, d.y));
     c += glm::vec3(5.0f, 4.9f, 4.7f) * key.seen(d);
     c += glm::vec3(1.9f, 2.0f, 2.1f) * fill.seen(d);
     c += glm::vec3(3.0f) * ceiling.seen(d);
+    c += paper * (2.4f * card.seen(d));
     c += glm::vec3(4.2f, 4.4f, 4.6f) * (left.seen(d) + right.seen(d));
     return c;
 }
