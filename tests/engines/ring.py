@@ -173,18 +173,20 @@ def between(engine, ours, own):
     print(f"{engine}: {degrees(ours[both][:, :3], own[both][:, :3]).mean():.3f} degrees between Cotan and its tangents, in the mean")
 
 
-def judge_page(row, version, table):
-    """docs/engines.md: the row has this version, or its numbers are not compared. table: words of a line to mean and 99 %
-    of left and right ring."""
+def judge_page(engine, version, ours, own):
+    """The rows of docs/engines.md, if they are of this version. Each has mean and 99 % of the left and the right ring."""
     page = (ROOT / "docs/engines.md").read_text().splitlines()
-    if not any(line.startswith(f"| {row} | {version} |") for line in page):
+    if not any(line.startswith(f"| {engine} | {version} |") for line in page):
         print(f"docs/engines.md has another version than {version}: not compared")
         return
-    for words, results in table.items():
-        cells = next(line for line in page if line.startswith(f"| {words} |")).split("|")[2:4]
-        for cell, (name, *_) in zip(cells, PAIR):
-            mean, high = map(float, cell.split(","))
-            assert abs(mean - results[name][0]) < 0.01 and abs(high - results[name][1]) < 0.05, (words, name, results[name])
+    for kind in MAPS:
+        for whose, results in (("Cotan", ours), ("its tangents", own)):
+            start = f"| {engine}, {kind}: {whose} |"
+            cells = next(line for line in page if line.startswith(start)).split("|")[2:4]
+            for cell, (name, *_) in zip(cells, PAIR):
+                mean, high = map(float, cell.split(","))
+                measured = results[kind][name]
+                assert abs(mean - measured[0]) < 0.01 and abs(high - measured[1]) < 0.05, (start, name, measured)
 
 
 def judge_lit(file):
