@@ -1,4 +1,3 @@
-
 // The functions above are printed by cotan shader. raylib sets all uniforms; light is of your own.
 in vec3 fragPosition;
 in vec2 fragTexCoord;
