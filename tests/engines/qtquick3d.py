@@ -17,7 +17,7 @@ import ring
 
 HERE = pathlib.Path(__file__).resolve().parent / "qtquick3d"
 EXAMPLE = ring.ROOT / "examples/qtquick3d"
-CALL = "cotan_perturb_normal(NORMAL, VAR_WORLD_POSITION - CAMERA_POSITION, UV0, texture(normalTexture, UV0).xyz)"
+CALL = "side * cotan_perturb_normal(side * NORMAL, VAR_WORLD_POSITION - CAMERA_POSITION, UV0, texture(normalTexture, UV0).xyz)"
 # As Qt's qt_sampleNormalTexture.
 TANGENTS = "normalize(mat3(TANGENT, BINORMAL, NORMAL) * (texture(normalTexture, UV0).xyz * 2.0 - 1.0))"
 # The normal that lights are computed with, and uv, as bytes.
@@ -47,10 +47,10 @@ def write_shaders(tool, folder):
 
 
 def import_rings(tool, folder):
-    """Three folders, made by Qt's importer: without tangents, its default; with those that it computes; and with those of
-    MikkTSpace, from the file."""
+    """Folders, made by Qt's importer: without tangents, its default, also inside out; with those that it computes; and with
+    those of MikkTSpace, from the file."""
     subprocess.run([tool, "tangents", folder / "bumps.gltf", "-o", folder / "stored.glb", "--quiet"], check=True)
-    for place, words in (("without", ["bumps.gltf"]), ("computed", ["--calculateTangentSpace", "bumps.gltf"]), ("stored", ["stored.glb"])):
+    for place, words in (("without", ["bumps.gltf"]), ("computed", ["--calculateTangentSpace", "bumps.gltf"]), ("back", ["inside_out.gltf"]), ("stored", ["stored.glb"])):
         ring.run("qtquick3d", "/usr/lib/qt6/bin/balsam", "-o", place, *words, folder=folder, log=folder / f"balsam_{place}.txt")
     sizes = [(folder / place / "meshes/meshes_0__mesh.mesh").stat().st_size for place in ("without", "stored")]
     assert (sizes[1] - sizes[0]) // len(ring.ring_mesh()[0]) == 24, "a tangent and a binormal"
@@ -65,8 +65,9 @@ def jobs_of(api):
     """ours, own: the normals that the lights get, with the material and with Qt's function and stored tangents. The others
     are PrincipledMaterial in Qt's debug view of normals, which has 8 bits."""
     cases = [(name, place, kind, f"{name}.frag") for name, place in (("ours", "without"), ("own", "stored")) for kind in ring.MAPS]
+    cases += [("back", "back", "bumps", "ours.frag")]
     cases += [(place, place, "bumps", "") for place in ("stored", "computed", "without")] + [("lit", "without", "bumps", "cotan_material.frag")]
-    return [{"folder": place, "maps": [f"{kind}_{side}.png" for side, *_ in ring.PAIR], "shader": shader, "parts": 6 if name in ("ours", "own") else 1,
+    return [{"folder": place, "maps": [f"{kind}_{side}.png" for side, *_ in ring.PAIR], "shader": shader, "parts": 6 if name in ("ours", "own", "back") else 1,
              "lit": name == "lit", "normals": not shader, "name": name, "kind": kind, "out": f"{api}_{name}_{kind}.bin", "rotation": quaternion(ring.BASIS),
              "eye": ring.EYE, "field": ring.FIELD, "width": ring.WIDTH, "height": ring.HEIGHT} for name, place, kind, shader in cases]  # fmt: skip
 
@@ -90,7 +91,8 @@ def draw(folder, api):
             ring.judge_lit(file)
             continue
         if job["parts"] == 6:
-            pixels[(name, kind)] = pixels_of(*ring.read_bytes(file, ring.HEIGHT, ring.WIDTH))
+            normal, *others = ring.read_bytes(file, ring.HEIGHT, ring.WIDTH)
+            pixels[(name, kind)] = pixels_of(normal * (-1 if name == "back" else 1), *others)
         else:
             _, u, v, inside = ring.read_bytes(folder / f"{api}_ours_bumps.bin", ring.HEIGHT, ring.WIDTH)
             normal = np.frombuffer(file.read_bytes(), np.uint8).reshape(*u.shape, 3) / 127.5 - 1
@@ -111,6 +113,7 @@ def main(tool, folder):
         version, results = draw(folder, api)
         # Qt has no anisotropic filter, so that a minified map is blurred.
         ring.judge_ours(results["ours"], results["own"], bumps_limit=0.75)
+        assert all(abs(results["back"]["bumps"][side][0] - results["ours"]["bumps"][side][0]) < 0.001 for side, *_ in ring.PAIR)
         # The debug view of its material agrees with its function: 8 bits of a normal are 0.2 degrees.
         assert all(abs(results["stored"]["bumps"][side][0] - results["own"]["bumps"][side][0]) < 0.2 for side, *_ in ring.PAIR)
         # Without tangents it derives a frame without a sign; those that its importer computes have green downwards.

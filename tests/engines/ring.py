@@ -93,17 +93,19 @@ def ring_mesh(mirrored=False, columns=128, rows=64):
     return position.reshape(-1, 3).astype(np.float32), normal.reshape(-1, 3).astype(np.float32), uv.reshape(-1, 2).astype(np.float32), corners.astype(np.uint16)
 
 
-def write_rings(file, rings):
-    """A glTF file without tangents. rings: for each the name of its map, whether it is mirrored, and its node."""
+def write_rings(file, rings, inside_out=False):
+    """A glTF file without tangents. rings: for each the name of its map, whether it is mirrored, and its node. inside_out:
+    whoever sees the rings sees the backs of triangles."""
     views, parts, accessors, at = [], [], [], 0
     meshes, materials, nodes = [], [], []
     for k, (_, mirrored, node) in enumerate(rings):
-        for part, kind in zip(ring_mesh(mirrored), ("VEC3", "VEC3", "VEC2", "SCALAR")):
+        position, *others, corners = ring_mesh(mirrored)
+        corners = np.ascontiguousarray(corners[::-1]) if inside_out else corners
+        for part, kind in zip((position, *others, corners), ("VEC3", "VEC3", "VEC2", "SCALAR")):
             views.append({"buffer": 0, "byteOffset": at, "byteLength": part.nbytes})
             accessors.append({"bufferView": len(views) - 1, "componentType": 5126 if part.dtype == np.float32 else 5123, "count": len(part), "type": kind})
             parts.append(part.tobytes() + b"\0" * (-part.nbytes % 4))
             at += len(parts[-1])
-        position = ring_mesh(mirrored)[0]
         accessors[4 * k].update(min=position.min(axis=0).tolist(), max=position.max(axis=0).tolist())
         attributes = {"POSITION": 4 * k, "NORMAL": 4 * k + 1, "TEXCOORD_0": 4 * k + 2}
         meshes.append({"primitives": [{"attributes": attributes, "indices": 4 * k + 3, "material": k}]})
@@ -135,12 +137,13 @@ def matrix(x):
 
 
 def write_pair(folder):
-    """bumps.gltf and flat.gltf, the same rings with other maps."""
+    """bumps.gltf and flat.gltf, the same rings with other maps; inside_out.gltf is bumps.gltf seen from behind."""
     for name, formula, _, _ in PAIR:
         write_map(folder / f"bumps_{name}.png", formula, 2048, 1024)
         write_map(folder / f"flat_{name}.png", flat, 4, 4)
-    for kind in MAPS:
-        write_rings(folder / f"{kind}.gltf", [(f"{kind}_{name}.png", mirrored, {"matrix": matrix(x)}) for name, _, mirrored, x in PAIR])
+    for file, kind in (("bumps", "bumps"), ("flat", "flat"), ("inside_out", "bumps")):
+        rings = [(f"{kind}_{name}.png", mirrored, {"matrix": matrix(x)}) for name, _, mirrored, x in PAIR]
+        write_rings(folder / f"{file}.gltf", rings, file == "inside_out")
 
 
 def judge_pair(engine, kind, whose, pixels):

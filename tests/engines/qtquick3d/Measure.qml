@@ -32,6 +32,7 @@ View3D {
             property real part: view.part
             normalMap: map_
             fragmentShader: view.job.shader
+            cullMode: view.job.name === "back" ? CustomMaterial.NoCulling : CustomMaterial.BackFaceCulling
         }
         property PrincipledMaterial own: PrincipledMaterial {
             roughness: 0.5
