@@ -77,9 +77,13 @@ def write_png(file, pixels):
     file.write_bytes(b"\x89PNG\r\n\x1a\n" + data)
 
 
-def write_map(file, formula, width, height):
+def map_pixels(formula, width, height):
     u, v = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
-    write_png(file, np.round(127 * formula(u, v) + 128).astype(np.uint8))
+    return np.round(127 * formula(u, v) + 128).astype(np.uint8)
+
+
+def write_map(file, formula, width, height):
+    write_png(file, map_pixels(formula, width, height))
 
 
 def ring_mesh(mirrored=False, columns=128, rows=64):
