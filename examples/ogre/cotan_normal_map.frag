@@ -1,5 +1,6 @@
 #version 330 core
-// The fragment program of cotan_normal_map.material: one light, without specular. cotan.glsl is what cotan shader prints.
+// The fragment program of cotan_normal_map.material: one light, without specular.
+// cotan.glsl is what cotan shader prints.
 #include "cotan.glsl"
 in vec3 surfacePosition;
 in vec3 surfaceNormal;

@@ -17,11 +17,11 @@ NORMAL = """
 
 def use(actor, functions):
     """Draws the normal texture of an actor by functions, the text of `cotan shader`, and drops the tangents of its mesh.
-    Actors without a normal texture, or without texture coordinates, stay as they are. Returns whether it has one."""
-    mesh = actor.GetMapper().GetInput()
-    if not actor.GetProperty().GetTexture("normalTex") or not mesh.GetPointData().GetTCoords() or not mesh.GetPointData().GetNormals():
+    An actor without normal texture, normals or texture coordinates stays as it is, and the result is False."""
+    data = actor.GetMapper().GetInput().GetPointData()
+    if not actor.GetProperty().GetTexture("normalTex") or not data.GetTCoords() or not data.GetNormals():
         return False
-    mesh.GetPointData().SetTangents(None)
+    data.SetTangents(None)
     shaders = actor.GetShaderProperty()
     for tag, text in (("System::Dec", EXTENSION), ("Normal::Dec", functions), ("Normal::Impl", NORMAL)):
         shaders.AddFragmentShaderReplacement(f"//VTK::{tag}", True, f"//VTK::{tag}\n{text}", False)

@@ -25,10 +25,12 @@ def write_materials(tool, folder):
     given = ring.replaced((EXAMPLE / "cotan_normal_map.mat.in").read_text(), "@COTAN@", ring.functions(tool, "--lang", "glsl", "--frame", "orthonormal"))
     (folder / "lit.mat").write_text(given)
     ours = ring.replaced(ring.replaced(given, END, END + NUMBERS), "flipUV", "postLightingBlending : opaque,\n    flipUV")
-    ours = ring.replaced(ours, "        { type : float, name : metallic },", "        { type : float, name : part },\n        { type : float, name : metallic },")
+    parameter = "        { type : float, name : metallic },"
+    ours = ring.replaced(ours, parameter, "        { type : float, name : part },\n" + parameter)
     (folder / "ours.mat").write_text(ours)
     start, end = ours.index("    useNormal(cotan"), ours.index("    material.baseColor =")
-    own = ring.replaced(ours[:start] + ours[end:], "    prepareMaterial(material);\n", "    material.normal = texture(materialParams_normalMap, getUV0()).xyz * 2.0 - 1.0;\n    prepareMaterial(material);\n")
+    read = "    material.normal = texture(materialParams_normalMap, getUV0()).xyz * 2.0 - 1.0;\n"
+    own = ring.replaced(ours[:start] + ours[end:], "    prepareMaterial(material);\n", read + "    prepareMaterial(material);\n")
     (folder / "own.mat").write_text(own)
     for name in ("lit", "ours", "own"):
         words = ("-a", "opengl", "-p", "desktop", "-o", f"{name}.filamat", f"{name}.mat")
@@ -50,8 +52,9 @@ def main(tool, folder):
     write_maps(folder)
     write_materials(tool, folder)
     shutil.copy(HERE / "measure.cpp", folder)
-    compile_ = f"c++ -std=c++17 -O1 -w -I$(ls -d /usr/include/filament-*) measure.cpp -o measure {LIBRARIES} && dpkg-query -W -f '${{Version}}' libfilament-dev"
-    version = ring.run("filament", "sh", "-c", compile_, folder=folder, log=folder / "compiler.txt", screen=False).split("+")[0]
+    compiler = f"c++ -std=c++17 -O1 -w -I$(ls -d /usr/include/filament-*) measure.cpp -o measure {LIBRARIES}"
+    compiler += " && dpkg-query -W -f '${Version}' libfilament-dev"
+    version = ring.run("filament", "sh", "-c", compiler, folder=folder, log=folder / "compiler.txt", screen=False).split("+")[0]
     results, pixels = {}, {}
     for name in ("ours", "own"):
         for kind in ring.MAPS:

@@ -1,4 +1,5 @@
-"""The material of examples/ogre in OGRE, judged by the formula of two rings, beside the tangents of Mesh::buildTangentVectors.
+"""The material of examples/ogre in OGRE, judged by the formula of two rings, beside the tangents of
+Mesh::buildTangentVectors.
 
     ogre.py TOOL [FOLDER]
 
@@ -46,7 +47,8 @@ def write_programs(tool, folder):
         rings.append(f'import * from "{name}.material"\n')
     for name in ("", "ours", "own"):
         for kind in ring.MAPS:
-            rings += [f"material {name}_{kind}_{side} : Cotan/{name}NormalMap\n{{\n  set $normal_map {kind}_{side}.png\n  set $color_map white.png\n}}\n" for side, *_ in ring.PAIR]
+            for side, *_ in ring.PAIR:
+                rings.append(f"material {name}_{kind}_{side} : Cotan/{name}NormalMap\n{{\n  set $normal_map {kind}_{side}.png\n  set $color_map white.png\n}}\n")
     (folder / "rings.material").write_text("".join(rings))
 
 
@@ -60,7 +62,8 @@ def main(tool, folder):
         for array, part in zip(ring.ring_mesh(mirrored), ("position", "normal", "uv", "corners")):
             array.tofile(folder / side / part)
     jobs = [{"name": (name, kind), "rings": [side for side, *_ in ring.PAIR], "materials": [f"{name}_{kind}_{side}" for side, *_ in ring.PAIR],
-             "matrices": [ring.matrix(x) for *_, x in ring.PAIR], "tangents": name == "own", "parts": 2 if name else 0, "out": f"{name or 'lit'}_{kind}.bin"}
+             "matrices": [ring.matrix(x) for *_, x in ring.PAIR], "tangents": name == "own", "parts": 2 if name else 0,
+             "out": f"{name or 'lit'}_{kind}.bin"}
             for name, kind in [(name, kind) for name in ("ours", "own") for kind in ring.MAPS] + [("", "bumps")]]  # fmt: skip
     plugins = ring.run("ogre", "sh", "-c", "ls -d /usr/lib/*/OGRE-14*", folder=folder, log=folder / "plugins.txt", screen=False).split()[-1]
     media = ring.run("ogre", "sh", "-c", "ls -d /usr/share/OGRE-14*/Media", folder=folder, log=folder / "media.txt", screen=False).split()[-1]

@@ -1,9 +1,10 @@
-"""The material of examples/qtquick3d in Qt Quick 3D, judged by the formula of two rings, beside what Qt does with the
-tangents of its importer, and without.
+"""The material of examples/qtquick3d in Qt Quick 3D, judged by the formula of two rings, beside what Qt does with stored
+tangents, with those of its importer, and without.
 
     qtquick3d.py TOOL [FOLDER]
 
-TOOL: cotan; FOLDER: where files and images are left. Exit code 77 if Qt Quick 3D is missing (scripts/try-engines gets it)."""
+TOOL: cotan; FOLDER: where files and images are left. Exit code 77 if Qt Quick 3D is missing (scripts/try-engines
+gets it)."""
 
 import json
 import pathlib
@@ -17,7 +18,7 @@ import ring
 
 HERE = pathlib.Path(__file__).resolve().parent / "qtquick3d"
 EXAMPLE = ring.ROOT / "examples/qtquick3d"
-CALL = "side * cotan_perturb_normal(side * NORMAL, VAR_WORLD_POSITION - CAMERA_POSITION, UV0, texture(normalTexture, UV0).xyz)"
+CALL = "side * cotan_perturb_normal(side * NORMAL, position, UV0, texture(normalTexture, UV0).xyz)"
 # As Qt's qt_sampleNormalTexture.
 TANGENTS = "normalize(mat3(TANGENT, BINORMAL, NORMAL) * (texture(normalTexture, UV0).xyz * 2.0 - 1.0))"
 # The normal that lights are computed with, and uv, as bytes.
@@ -31,7 +32,8 @@ void DIRECTIONAL_LIGHT()
 }
 void POST_PROCESS()
 {
-    float x = part < 0.5 ? SHARED.normal.x : part < 1.5 ? SHARED.normal.y : part < 2.5 ? SHARED.normal.z : part < 3.5 ? UV0.x : part < 4.5 ? UV0.y : 0.25;
+    float x = part < 0.5 ? SHARED.normal.x : part < 1.5 ? SHARED.normal.y : part < 2.5 ? SHARED.normal.z
+        : part < 3.5 ? UV0.x : part < 4.5 ? UV0.y : 0.25;
     COLOR_SUM = vec4(number_bytes(x), 1.0);
 }
 """
@@ -50,7 +52,8 @@ def import_rings(tool, folder):
     """Folders, made by Qt's importer: without tangents, its default, also inside out; with those that it computes; and with
     those of MikkTSpace, from the file."""
     subprocess.run([tool, "tangents", folder / "bumps.gltf", "-o", folder / "stored.glb", "--quiet"], check=True)
-    for place, words in (("without", ["bumps.gltf"]), ("computed", ["--calculateTangentSpace", "bumps.gltf"]), ("back", ["inside_out.gltf"]), ("stored", ["stored.glb"])):
+    computed = ["--calculateTangentSpace", "bumps.gltf"]
+    for place, words in (("without", ["bumps.gltf"]), ("computed", computed), ("back", ["inside_out.gltf"]), ("stored", ["stored.glb"])):
         ring.run("qtquick3d", "/usr/lib/qt6/bin/balsam", "-o", place, *words, folder=folder, log=folder / f"balsam_{place}.txt")
     sizes = [(folder / place / "meshes/meshes_0__mesh.mesh").stat().st_size for place in ("without", "stored")]
     assert (sizes[1] - sizes[0]) // len(ring.ring_mesh()[0]) == 24, "a tangent and a binormal"

@@ -25,8 +25,10 @@ def main(tool, folder):
     shutil.copy(EXAMPLE / "cotan_vtk.py", folder)
     (folder / "cotan.glsl").write_text(ring.functions(tool, "--lang", "glsl", "--frame", "orthonormal", "--green", "along-v"))
     subprocess.run([tool, "tangents", folder / "bumps.gltf", "-o", folder / "stored.glb", "--quiet"], check=True)
-    cases = [(whose, kind, f"{kind}.gltf") for whose in ("ours", "own") for kind in ring.MAPS] + [("back", "bumps", "inside_out.gltf"), ("stored", "bumps", "stored.glb")]
-    jobs = [{"model": model, "kind": "own" if whose == "stored" else whose, "parts": 6, "out": f"{whose}_{kind}.bin"} for whose, kind, model in cases]
+    cases = [(whose, kind, f"{kind}.gltf") for whose in ("ours", "own") for kind in ring.MAPS]
+    cases += [("back", "bumps", "inside_out.gltf"), ("stored", "bumps", "stored.glb")]
+    jobs = [{"model": model, "kind": "own" if whose == "stored" else whose, "parts": 6, "out": f"{whose}_{kind}.bin"}
+            for whose, kind, model in cases]  # fmt: skip
     jobs.append({"model": "bumps.gltf", "kind": "ours", "parts": 1, "out": "lit.bin"})
     whole = {"width": ring.WIDTH, "height": ring.HEIGHT, "eye": ring.EYE, "field": ring.FIELD, "number_bytes": ring.NUMBER_BYTES, "jobs": jobs}
     (folder / "jobs.json").write_text(json.dumps(whole))

@@ -72,7 +72,8 @@ for number, job in enumerate(jobs["jobs"]):
     place.setPosition(0, 0, jobs["eye"])
     place.attachObject(camera)
     kind = Ogre.PF_FLOAT32_RGBA if job["parts"] else Ogre.PF_BYTE_RGB
-    texture = Ogre.TextureManager.getSingleton().createManual(f"target{number}", Ogre.RGN_DEFAULT, Ogre.TEX_TYPE_2D, width, height, 1, 0, kind, Ogre.TU_RENDERTARGET)
+    textures = Ogre.TextureManager.getSingleton()
+    texture = textures.createManual(f"target{number}", Ogre.RGN_DEFAULT, Ogre.TEX_TYPE_2D, width, height, 1, 0, kind, Ogre.TU_RENDERTARGET)
     target = texture.getBuffer().getRenderTarget()
     view = target.addViewport(camera)
     view.setBackgroundColour(Ogre.ColourValue(0, 0, 0, 0))
