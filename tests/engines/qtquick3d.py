@@ -84,7 +84,14 @@ def draw(folder, api):
     """Returns Qt's version, and the results of each name."""
     jobs = jobs_of(api)
     (folder / "jobs.json").write_text(json.dumps(jobs))
-    said = ring.run("qtquick3d", "python3", "measure.py", folder=folder, log=folder / f"{api}.txt", QSG_RHI_BACKEND=api)
+    for attempt in (1, 2):  # once in 40 runs, right after Qt was installed, nothing was drawn
+        try:
+            said = ring.run("qtquick3d", "python3", "measure.py", folder=folder, log=folder / f"{api}.txt", QSG_RHI_BACKEND=api, QSG_RENDER_LOOP="basic")
+            break
+        except AssertionError as wrong:
+            if attempt == 2 or "no image in 20 seconds" not in str(wrong):
+                raise
+            print(f"drawn once more: {str(wrong).splitlines()[-1]}")
     wrong = [line for line in said.splitlines() if "rror" in line or "ailed" in line]
     assert "DONE" in said and f"drawn GraphicsApi.{api}".lower() in said.lower() and not wrong, wrong or said
     results, pixels = {}, {}

@@ -25,14 +25,15 @@ def grab(view):
 def settled(view):
     """An image that does not change any more: windows appear, and meshes and images are loaded, when they like."""
     last, same = b"", 0
-    for _ in range(400):
+    end = time.monotonic() + 20
+    while time.monotonic() < end:
         image = grab(view)
         same = same + 1 if view.isExposed() and image == last and any(image) else 0
         if same == 3:
             return image
         last = image
         time.sleep(0.01)
-    raise AssertionError("the image never settles")
+    raise AssertionError(f"no image in 20 seconds: the window is {'' if view.isExposed() else 'not '}there, the image is {'not ' if any(last) else ''}black")
 
 
 def draw(view, job):
