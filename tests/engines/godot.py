@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 import numpy as np
-from ring import ROOT, degrees, flat, rotation, skip, truth, waves, write_map, write_rings
+from ring import ROOT, degrees, flat, read_bytes, rotation, skip, truth, waves, write_map, write_rings
 
 RENDERERS = {"Forward+": ("forward_plus", "vulkan"), "Mobile": ("mobile", "vulkan"), "Compatibility": ("gl_compatibility", "opengl3")}
 SIZE = 384
@@ -71,15 +71,9 @@ def write_import(model, without, compressed):
         f"meshes/force_disable_compression={words[not compressed]}\nmeshes/generate_lods={words[compressed]}\ncotan/without_tangents={words[without]}\n")
 
 
-def read_normals(file, size=SIZE):
+def read_normals(file):
     """Normal and uv of each pixel that has a surface, and where these are."""
-    bytes_ = np.frombuffer(file.read_bytes(), np.uint8).reshape(6, size, size, 3).astype(int)
-    inside = (bytes_ > 0).all(axis=(0, 3))
-    digits = bytes_ - 100
-    assert ((digits >= 0) & (digits < 128))[:, inside].all(), f"{file.name}: colours that the shader did not write"
-    numbers = (digits @ np.array([16384, 128, 1])) / 2097151 * 2 - 1
-    assert np.abs(numbers[5][inside] - 0.25).max() < 2e-6, f"{file.name}: the renderer changes colours"
-    return np.moveaxis(numbers[:3], 0, -1), numbers[3], numbers[4], inside
+    return read_bytes(file, SIZE, SIZE)
 
 
 BASES = {"": rotation(0.6, 0.3), "mirrored": rotation(0.6, 0.3) @ np.diag([-1, 1, 1])}
