@@ -11,23 +11,15 @@ import os
 import pathlib
 import shutil
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
 
 import numpy as np
+from ring import ROOT, degrees, flat, read_bytes, rotation, skip, truth, waves, write_map, write_rings
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 RENDERERS = {"Forward+": ("forward_plus", "vulkan"), "Mobile": ("mobile", "vulkan"), "Compatibility": ("gl_compatibility", "opengl3")}
 SIZE = 384
-RADIUS, TUBE = 0.7, 0.3
-
-
-def skip(reason):
-    print("skipped: " + reason)
-    sys.exit(77)
 
 
 def data_file(name):
@@ -43,69 +35,6 @@ def version():
     if not said.startswith("4."):
         skip("godot is not Godot 4 (scripts/try-engines)")
     return ".".join(said.split(".")[:3])
-
-
-# ---- The ring: u around it, v around its tube and down, normals outwards; its map has 8 bits, 128 is zero.
-
-
-def bumps(u, v):
-    x, y = 0.6 * np.sin(2 * np.pi * 16 * u), 0.6 * np.sin(2 * np.pi * 6 * v)
-    m = np.stack([x, y, np.ones_like(x)], axis=-1)
-    return m / np.linalg.norm(m, axis=-1, keepdims=True)
-
-
-def flat(u, v):
-    return np.stack([0 * u, 0 * u, np.ones_like(u)], axis=-1)
-
-
-def ring(u, v):
-    """Position, normal, direction of u, and direction up the image, against v."""
-    a, b = 2 * np.pi * u, 2 * np.pi * v
-    zero = np.zeros_like(a)
-    outwards = np.stack([np.sin(a), zero, np.cos(a)], axis=-1)
-    normal = outwards * np.cos(b)[..., None] + np.stack([zero, -np.sin(b), zero], axis=-1)
-    along = np.stack([np.cos(a), zero, -np.sin(a)], axis=-1)
-    up = outwards * np.sin(b)[..., None] + np.stack([zero, np.cos(b), zero], axis=-1)
-    return outwards * RADIUS + normal * TUBE, normal, along, up
-
-
-def write_png(file, pixels):
-    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
-    chunks = [(b"IHDR", struct.pack(">IIBBBBB", pixels.shape[1], pixels.shape[0], 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b"")]
-    data = b"".join(struct.pack(">I", len(c)) + n + c + struct.pack(">I", zlib.crc32(n + c)) for n, c in chunks)
-    file.write_bytes(b"\x89PNG\r\n\x1a\n" + data)
-
-
-def write_map(file, formula, width, height):
-    u, v = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
-    write_png(file, np.round(127 * formula(u, v) + 128).astype(np.uint8))
-
-
-def write_ring(file, columns=128, rows=64):
-    u, v = np.meshgrid(np.arange(columns + 1) / columns, np.arange(rows + 1) / rows)
-    position, normal, _, _ = ring(u, v)
-    first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
-    below = first + columns + 1
-    corners = np.stack([first, below, first + 1, first + 1, below, below + 1], axis=-1).astype(np.uint32)
-    parts = [position.astype(np.float32), normal.astype(np.float32), np.stack([u, v], axis=-1).astype(np.float32), corners]
-    views, at = [], 0
-    for part in parts:
-        views.append({"buffer": 0, "byteOffset": at, "byteLength": part.nbytes})
-        at += part.nbytes
-    count = (columns + 1) * (rows + 1)
-    floats = {"componentType": 5126, "count": count}
-    accessors = [
-        dict(floats, bufferView=0, type="VEC3", min=position.min(axis=(0, 1)).tolist(), max=position.max(axis=(0, 1)).tolist()),
-        dict(floats, bufferView=1, type="VEC3"), dict(floats, bufferView=2, type="VEC2"),
-        {"bufferView": 3, "componentType": 5125, "count": corners.size, "type": "SCALAR"}]  # fmt: skip
-    primitive = {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}
-    file.with_suffix(".bin").write_bytes(b"".join(part.tobytes() for part in parts))
-    document = {
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [primitive]}],
-        "materials": [{"normalTexture": {"index": 0}, "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.6}}],
-        "textures": [{"source": 0}], "images": [{"uri": "bumps.png"}], "accessors": accessors, "bufferViews": views,
-        "buffers": [{"byteLength": at, "uri": file.with_suffix(".bin").name}]}  # fmt: skip
-    file.write_text(json.dumps(document))
 
 
 # ---- Godot
@@ -142,35 +71,13 @@ def write_import(model, without, compressed):
         f"meshes/force_disable_compression={words[not compressed]}\nmeshes/generate_lods={words[compressed]}\ncotan/without_tangents={words[without]}\n")
 
 
-def rotation(x, y):
-    a, b = np.array([[1, 0, 0], [0, np.cos(x), -np.sin(x)], [0, np.sin(x), np.cos(x)]]), np.array([[np.cos(y), 0, np.sin(y)], [0, 1, 0], [-np.sin(y), 0, np.cos(y)]])
-    return a @ b
-
-
-def read_normals(file, size=SIZE):
+def read_normals(file):
     """Normal and uv of each pixel that has a surface, and where these are."""
-    bytes_ = np.frombuffer(file.read_bytes(), np.uint8).reshape(6, size, size, 3).astype(int)
-    inside = (bytes_ > 0).all(axis=(0, 3))
-    digits = bytes_ - 100
-    assert ((digits >= 0) & (digits < 128))[:, inside].all(), f"{file.name}: colours that the shader did not write"
-    numbers = (digits @ np.array([16384, 128, 1])) / 2097151 * 2 - 1
-    assert np.abs(numbers[5][inside] - 0.25).max() < 2e-6, f"{file.name}: the renderer changes colours"
-    return np.moveaxis(numbers[:3], 0, -1), numbers[3], numbers[4], inside
-
-
-def degrees(a, b):
-    a, b = (x / np.linalg.norm(x, axis=-1, keepdims=True) for x in (a, b))
-    return np.degrees(2 * np.arcsin(np.minimum(np.linalg.norm(a - b, axis=-1) / 2, 1)))
-
-
-def truth(u, v, formula, basis):
-    m = formula(u, v)
-    _, normal, along, up = ring(u, v)
-    return (along * m[..., :1] + up * m[..., 1:2] + normal * m[..., 2:]) @ basis.T
+    return read_bytes(file, SIZE, SIZE)
 
 
 BASES = {"": rotation(0.6, 0.3), "mirrored": rotation(0.6, 0.3) @ np.diag([-1, 1, 1])}
-FORMULAS = {"flat": flat, "bumps": bumps}
+FORMULAS = {"flat": flat, "bumps": waves(16, 6)}
 
 
 def ring_jobs(project):
@@ -310,12 +217,12 @@ def main(tool, folder):
     godot(project, folder / "first.log", "--headless", "--import", display=False)  # registers the add-on
     for file in (ROOT / "tests/engines/godot").iterdir():
         shutil.copy(file, project)
-    write_map(project / "bumps.png", bumps, 2048, 1024)
+    write_map(project / "bumps.png", FORMULAS["bumps"], 2048, 1024)
     write_map(project / "flat.png", flat, 4, 4)
     models = [name for name in ("BoomBox", "FlightHelmet") if data_file(f"models/{name}").exists()]
     for place, without in (("with", False), ("without", True)):
         for detail in ("default", "exact"):
-            write_ring(project / f"ring_{place}_{detail}.gltf")
+            write_rings(project / f"ring_{place}_{detail}.gltf", [("bumps.png", False, {})])
             write_import(project / f"ring_{place}_{detail}.gltf", without, detail == "default")
         for model in models:
             shutil.copytree(data_file(f"models/{model}"), project / place / model)
