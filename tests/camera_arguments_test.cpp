@@ -90,6 +90,22 @@ TEST(CameraArguments, upIsIgnoredIfNearlyParallelToTheView)
     EXPECT_NE(words({0.00022f, 2, 0}, {0, 0, -1}, true).find(",0,0,-1"), std::string::npos);
 }
 
+// Degrees are as few digits as give the same camera, of cameras in radians.
+TEST(CameraArguments, fieldsOfViewHaveAsFewDigitsAsTheyNeed)
+{
+    const auto degreesOf = [](float degrees) {
+        Camera camera;
+        camera.target = {0, 0, -1};
+        camera.verticalFieldOfView = glm::radians(degrees);
+        const std::string text = formatCamera(camera);
+        return text.substr(text.rfind(',') + 1);
+    };
+    EXPECT_EQ(degreesOf(45), "45");
+    EXPECT_EQ(degreesOf(30), "30");
+    EXPECT_EQ(degreesOf(19.5f), "19.5");
+    EXPECT_TRUE(formatCamera({}).ends_with(",45")) << formatCamera({});
+}
+
 // Side views look along an axis at the centre of the model; a wide image is as high as needed.
 TEST(CameraArguments, sidesLookAtTheCentreOfTheModel)
 {

@@ -124,7 +124,12 @@ std::string formatCamera(const Camera& camera)
         text += ",h";
         add(camera.verticalExtent);
     } else {
-        add(double(camera.verticalFieldOfView) / kRadians);
+        const double degrees = double(camera.verticalFieldOfView) / kRadians;
+        const auto rounded = float(degrees); // 45 instead of 44.99999100695533, where both give the same camera
+        if (float(rounded * kRadians) == camera.verticalFieldOfView)
+            add(rounded);
+        else
+            add(degrees);
     }
     const glm::vec3 forward = camera.target - camera.eye;
     const bool vertical = glm::length(glm::cross(forward, {0, 1, 0})) <= 1e-4f * glm::length(forward);

@@ -277,14 +277,14 @@ struct Light {
     glm::vec3 direction{0, -1, 0}; // world, unit, direction in which the light travels
     float range = 0;               // metres; 0: infinite
     float innerCone = 0;           // radians from the axis
-    float outerCone = 0.785398f;
+    float outerCone = 0.78539816f;
 };
 
 struct Camera {
     std::string name;
     bool orthographic = false;
-    float verticalFieldOfView = 0.785398f; // radians, perspective
-    float verticalExtent = 2;              // world units from bottom to top, orthographic
+    float verticalFieldOfView = 0.78539816f; // radians, perspective: 45 degrees
+    float verticalExtent = 2;                // world units from bottom to top, orthographic
     glm::vec3 eye{0, 0, 5};
     glm::vec3 target{0, 0, 0};
     glm::vec3 up{0, 1, 0};
