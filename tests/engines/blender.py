@@ -50,10 +50,13 @@ def carry_tool(tool, folder):
 
 def ran(name, log, command, **more):
     """Runs a command; its output goes to the log, and the lines of its facts are printed."""
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
+    both = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, text=True, **both, **more)
     log.write_text(done.stdout)
-    lines = [line for line in done.stdout.splitlines() if line.startswith(("[SKIP]", "[FAIL]", "measured: ")) or "facts hold" in line]
-    print(f"{name}: " + ("exit code 0" if done.returncode == 0 else f"EXIT CODE {done.returncode}, {log}"), *lines, sep="\n  ", flush=True)
+    print(f"{name}: exit code {done.returncode}" + (f", {log}" if done.returncode else ""))
+    for line in done.stdout.splitlines():
+        if line.startswith(("[SKIP]", "[FAIL]", "measured: ")) or "facts hold" in line:
+            print(f"  {line}", flush=True)
     return done.returncode == 0
 
 
