@@ -101,9 +101,9 @@ class CotanBakePanel(_Part, bpy.types.Panel):
         column = layout.column()
         column.operator("object.cotan_bake", text="Bake Selected to Active", icon="RENDER_STILL").which = "ACTIVE"
         column.operator("object.cotan_bake", text="Bake Pairs by Name", icon="SORTALPHA").which = "NAMES"
-        row = layout.row(align=True)
-        row.operator("object.cotan_frame", icon="SHADING_RENDERED").which = "COTAN"
-        row.operator("object.cotan_frame", text="Use Blender's").which = "BLENDER"
+        column = layout.column()
+        column.operator("object.cotan_frame", icon="SHADING_RENDERED").which = "COTAN"
+        column.operator("object.cotan_frame", text="Use Blender's Node", icon="LOOP_BACK").which = "BLENDER"
 
 
 class CotanCheckPanel(_Part, bpy.types.Panel):
