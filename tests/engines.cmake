@@ -14,7 +14,7 @@ endif()
 # What is installed in engines, run in them: tests/engines/ENGINE.py. Skipped where the engine is not in PATH;
 # scripts/try-engines gets the newest versions.
 if(COTAN_PYTHON)
-  foreach(engine godot raylib ogre qtquick3d vtk f3d filament)
+  foreach(engine blender godot raylib ogre qtquick3d vtk f3d filament)
     cotan_door(Engines.${engine} COMMAND ${COTAN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/engines/${engine}.py $<TARGET_FILE:cotan>)
     set_tests_properties(Engines.${engine} PROPERTIES TIMEOUT 1500)
   endforeach()

@@ -94,6 +94,9 @@ def mapsMatchThoseOfCycles():
         ("ao", "AO", 0.012, 0.05, {}),
     ):
         samples = {"position": 1, "ao": 256}.get(kind, 16)
+        if kind == "base-color":  # since Blender 4, what a surface reflects is missing in its diffuse colour
+            for shader in [m.node_tree.nodes["Principled BSDF"] for m in high.data.materials]:
+                shader.inputs["Specular" if "Specular" in shader.inputs else "Specular IOR Level"].default_value = 0
         ours = cotan.bake(
             *files, kind=kind, size=SIZE, bits=32, padding=-1, extrusion=OUT, max_distance=1, mask=True, ao_rays=256,
             samples=samples if samples == 16 else 1,

@@ -15,7 +15,14 @@ bl_info = {
     "category": "Render",
 }
 
-CLASSES = [operators.CotanBake, operators.CotanCage, operators.CotanCheck, operators.CotanExport, *panel.CLASSES]
+CLASSES = [
+    operators.CotanBake,
+    operators.CotanCage,
+    operators.CotanCheck,
+    operators.CotanExport,
+    operators.CotanFrame,
+    *panel.CLASSES,
+]
 
 
 def register():

@@ -8,7 +8,7 @@ import threading
 import bpy
 import numpy as np
 
-from . import cages, images, materials, meshes, nodes
+from . import cages, frames, images, materials, meshes, nodes
 from .refused import Refused, packages
 from .settings import MAPS
 
@@ -193,7 +193,7 @@ def _store(settings, low, bake, work, uv_map, outcome):
             outcome.notes += _notes_of(work.baked[made.kind], image.name)
         if settings.assign and made.kind == "normal":
             _put(low, bake.slots, image, uv_map, outcome)
-        outcome.notes += nodes.all_read_green_up(image)
+        outcome.notes += nodes.all_read_green_up(image) + frames.follow(image)
 
 
 def run(context, settings, pairs, outcome):

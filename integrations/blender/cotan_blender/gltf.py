@@ -26,7 +26,7 @@ def exported(context, things, apply_modifiers=True, y_up=True, colors=True):
             thing.select_set(False)
         for thing in things:
             thing.select_set(True)
-        with tempfile.TemporaryDirectory() as folder, _green_up(things, folder):
+        with tempfile.TemporaryDirectory() as folder, _green_up(things, folder), _blenders_nodes(things):
             path = os.path.join(folder, "model.glb")
             bpy.ops.export_scene.gltf(
                 filepath=path,
@@ -91,6 +91,26 @@ def _green_up(things, folder):
             texture.image = image
         for copy in copies.values():
             bpy.data.images.remove(copy)
+
+
+@contextlib.contextmanager
+def _blenders_nodes(things):
+    """Materials that are shown with a frame of Cotan take their normals from Blender's node meanwhile, which the
+    exporter reads; those of a library file stay."""
+    changed = []
+    try:
+        for material, reader, _ in _readers(things):
+            group = nodes.frame_group(material)
+            if group is not None and material.library is None:
+                strength = reader.inputs["Strength"]
+                changed.append((material, group, strength, strength.default_value))
+                strength.default_value = group.inputs["Strength"].default_value
+                nodes.link_normal(material, reader)
+        yield
+    finally:
+        for material, group, strength, before in changed:
+            strength.default_value = before
+            nodes.link_normal(material, group)
 
 
 def frame_of(image):

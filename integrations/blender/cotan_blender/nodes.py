@@ -34,11 +34,32 @@ def _normal_socket(shader):
     return bump.inputs["Normal"] if bump else socket
 
 
-def map_of(material):
-    """The Normal Map node and the Image Texture node of the material's normal; None for each that is missing."""
+def frame_group(material):
+    """The node group of frames.py that gives the material's normal; None if there is none."""
     shader = principled(material) if material is not None else None
-    reader = _source(_normal_socket(shader), "NORMAL_MAP") if shader else None
+    group = _source(_normal_socket(shader), "GROUP") if shader else None
+    return group if group is not None and group.node_tree is not None and "cotan_frame" in group.node_tree else None
+
+
+def map_of(material):
+    """The Normal Map node and the Image Texture node of the material's normal; None for each that is missing. With a
+    node group of frames.py, the Normal Map node is the one in front of it."""
+    shader, group = principled(material) if material is not None else None, frame_group(material)
+    socket = group.inputs["Normal"] if group else _normal_socket(shader) if shader else None
+    reader = _source(socket, "NORMAL_MAP") if socket else None
     return reader, _source(reader.inputs["Color"], "TEX_IMAGE") if reader else None
+
+
+def link_normal(material, node):
+    """Makes the material take its normal from this node."""
+    material.node_tree.links.new(node.outputs["Normal"], _normal_socket(principled(material)))
+
+
+def uv_name(thing, reader):
+    """Name of the uv map of an object with which the node computes tangents; "" if it has none."""
+    layers = thing.data.uv_layers
+    shown = next((layer.name for layer in layers if layer.active_render), "")
+    return reader.uv_map if reader.uv_map in layers else shown
 
 
 def reads_green_down(reader):
@@ -99,9 +120,11 @@ def assign(material, image, uv_map):
             tree.links.new(chosen.outputs["UV"], texture.inputs["Vector"])
         chosen.uv_map = uv_map
     tree.nodes.active = texture
-    said = read_green_up(material, reader)
-    if shader is not None:
-        tree.links.new(reader.outputs["Normal"], _normal_socket(shader))
+    said, group = read_green_up(material, reader), frame_group(material)
+    if group is not None:
+        tree.links.new(texture.outputs["Color"], group.inputs["Color"])
+    elif shader is not None:
+        link_normal(material, reader)
     else:
         said.append(f"the material '{material.name}' has no Principled BSDF, so its Normal Map node is linked to nothing")
     return said

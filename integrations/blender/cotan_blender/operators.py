@@ -5,7 +5,7 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty
 from bpy_extras.io_utils import ExportHelper
 
-from . import bake, cages, check, gltf, pairs
+from . import bake, cages, check, frames, gltf, pairs
 from .refused import Refused, packages
 
 
@@ -121,6 +121,40 @@ class CotanCage(bpy.types.Operator):
             return {"CANCELLED"}
         settings.cage, settings.cage_object = "MESH", cage
         self.report({"INFO"}, f"'{cage.name}' is the cage: edit it where it cuts the detail")
+        return {"FINISHED"}
+
+
+class CotanFrame(bpy.types.Operator):
+    """Show the normal maps of the selected meshes, in viewport and renders, with the frame that they were baked for"""
+
+    bl_idname = "object.cotan_frame"
+    bl_label = "Use Cotan's Frame"
+    bl_options = {"UNDO"}
+
+    which: EnumProperty(
+        name="Which",
+        items=[
+            ("COTAN", "Cotan's", "The frame of each map; for MikkTSpace orthonormal, which needs no tangents"),
+            ("BLENDER", "Blender's", "Blender's own Normal Map node again"),
+        ],
+        default="COTAN",
+    )
+
+    def execute(self, context):
+        try:
+            if context.mode != "OBJECT":
+                raise Refused("Go back to Object Mode first")
+            things = [o for o in context.selected_objects if o.type == "MESH"]
+            use = frames.use_cotans if self.which == "COTAN" else frames.use_blenders
+            found, notes = use(context, things)
+        except Refused as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for note in notes:
+            self.report({"WARNING"}, note)
+        names = ", ".join(f"'{material.name}'" for material in found)
+        what = "the frame of the map" if self.which == "COTAN" else "its Normal Map node"
+        self.report({"INFO"}, f"{names}: shown with {what}")
         return {"FINISHED"}
 
 

@@ -4,6 +4,7 @@ import textwrap
 
 import bpy
 
+from . import frames
 from .settings import MAPS
 
 
@@ -40,6 +41,8 @@ class CotanBakePanel(_Part, bpy.types.Panel):
         layout.prop(s, "frame")
         if s.frame != "mikktspace":
             layout.label(text="Blender's own Normal Map node reads MikkTSpace", icon="INFO")
+            if s.frame in frames.SHOWN:
+                layout.label(text="To see this frame: Use Cotan's Frame, below", icon="BLANK1")
         layout.label(text="Maps (Shift-click for several)")
         grid = layout.grid_flow(columns=2, align=True)
         grid.use_property_split = False
@@ -98,6 +101,9 @@ class CotanBakePanel(_Part, bpy.types.Panel):
         column = layout.column()
         column.operator("object.cotan_bake", text="Bake Selected to Active", icon="RENDER_STILL").which = "ACTIVE"
         column.operator("object.cotan_bake", text="Bake Pairs by Name", icon="SORTALPHA").which = "NAMES"
+        column = layout.column()
+        column.operator("object.cotan_frame", icon="SHADING_RENDERED").which = "COTAN"
+        column.operator("object.cotan_frame", text="Use Blender's Node", icon="LOOP_BACK").which = "BLENDER"
 
 
 class CotanCheckPanel(_Part, bpy.types.Panel):
