@@ -2,8 +2,6 @@
 #include <memory>
 #include <thread>
 
-#include <sys/stat.h>
-
 #include "bake_options.hpp"
 #include "batch/report.hpp"
 #include "batch/run.hpp"

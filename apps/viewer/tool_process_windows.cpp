@@ -37,11 +37,7 @@ ToolProcess::~ToolProcess()
 Status ToolProcess::start(const std::filesystem::path& program, const std::vector<std::string>& words)
 {
     State& s = *state_;
-    // Its processes end with the last handle of the job.
-    s.job = Handle(::CreateJobObjectW(nullptr, nullptr));
-    JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
-    limits.BasicLimitInformation.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE;
-    ::SetInformationJobObject(s.job.get(), JobObjectExtendedLimitInformation, &limits, sizeof limits);
+    s.job = endingJob();
     s.pipe = Pipe();
     if (!s.pipe.open(/*childReads*/ false))
         return unavailableError("no pipe to another process: " + lastReason());

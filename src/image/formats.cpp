@@ -27,6 +27,10 @@ Result<const ImageFormats*> loadFormats()
         return offered.error();
     return static_cast<const ImageFormats*>(*offered);
 }
+#elif defined(COTAN_FORMATS_LINKED)
+constexpr bool kBuilt = true;
+
+Result<const ImageFormats*> loadFormats() { return static_cast<const ImageFormats*>(cotanImageFormats()); }
 #else
 constexpr bool kBuilt = false;
 

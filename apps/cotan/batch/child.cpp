@@ -1,18 +1,15 @@
 #include "batch/child.hpp"
 
 #include <algorithm>
-#include <csignal>
+#include <cstdlib>
 #include <mutex>
 #include <new>
-
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include "core/parse_number.hpp"
 #include "files/file_registry.hpp"
 #include "files/json.hpp"
 #include "files/output.hpp"
-#include "files/sandbox/confine.hpp"
+#include "files/sandbox/request.hpp"
 #include "image/format_table.hpp"
 #include "model/model_formats.hpp"
 
@@ -24,6 +21,7 @@ constexpr const char* kJobWord = "run-for-batch"; // first argument of a job pro
 constexpr std::size_t kFixedWords = 6;
 constexpr const char *kAnswerName = "answer.json", *kThumbnailName = "thumbnail.png"; // in the work folder
 constexpr std::size_t kMaxAnswerBytes = 256 << 20;
+constexpr std::size_t kHead = 4096, kTail = 8192; // bytes of output kept, of the beginning and of the end
 
 // An image to make the thumbnail from; empty: none.
 std::filesystem::path thumbnailSource(const ChildRequest& request, const ChildAnswer& answer,
@@ -74,13 +72,8 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
     parseNumber(argv[6], request.processorSeconds);
     request.thumbnails = Thumbnails(thumbnails);
     request.words = {argv + kFixedWords + 1, argv + argc};
-    dieWith(request.parent, SIGTERM); // the handler of SIGTERM removes unfinished files
-    leaveNoCore();
-    if (!kSanitized && request.megabytes > 0)
-        setLimit(RLIMIT_DATA, request.megabytes << 20, request.megabytes << 20);
-    if (request.processorSeconds > 0)
-        setLimit(RLIMIT_CPU, request.processorSeconds, RLIM_INFINITY);
-    std::set_new_handler([] { ::_exit(kNoMemoryCode); });
+    limitJobProcess(request);
+    std::set_new_handler([] { std::_Exit(kNoMemoryCode); });
 
     ChildAnswer answer;
     std::mutex mutex;
@@ -105,6 +98,17 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
     const std::string text = j.dump(-1, ' ', false, Json::error_handler_t::replace);
     const Status written = writeFileWhole(request.work / kAnswerName, text);
     return written ? code : code != 0 ? code : int(ErrorKind::output);
+}
+
+void KeptOutput::add(std::string_view text)
+{
+    const std::size_t toHead = std::min(text.size(), kHead - head_.size());
+    head_ += text.substr(0, toHead);
+    tail_ += text.substr(toHead);
+    if (tail_.size() > 2 * kTail) {
+        tail_.erase(0, tail_.size() - kTail);
+        cut_ = true;
+    }
 }
 
 ChildAnswer readAnswer(const std::filesystem::path& work)

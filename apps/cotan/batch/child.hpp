@@ -1,7 +1,6 @@
 // The process that runs one job, from both sides: the same program with a special first argument.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -9,14 +8,15 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sys/types.h>
 
 #include "batch/record.hpp"
 #include "cotan/result.hpp"
-#include "files/sandbox/process.hpp"
 
 namespace cotan::app {
 
@@ -28,7 +28,7 @@ struct ChildRequest {
     std::filesystem::path work;       // an empty folder, absolute, for its answer and the command's report
     std::int64_t parent = 0;          // id of the parent process
     std::size_t megabytes = 0;        // memory limit in MiB; 0: none
-    std::size_t processorSeconds = 0; // limit of processor time, which raises SIGXCPU; 0: none
+    std::size_t processorSeconds = 0; // limit of processor time; 0: none
     Thumbnails thumbnails = Thumbnails::pictures;
     std::vector<std::string> words; // of the command line
 };
@@ -56,19 +56,25 @@ ChildAnswer readAnswer(const std::filesystem::path& work);
 
 // How a process ended.
 struct Ending {
-    int status = 0;    // as waitpid gives it
-    bool lost = false; // the status is unknown
-    bool late = false; // the time limit was exceeded
-    JobRecord record;  // with its output, times and memory
+    std::optional<int> code; // exit code; none: something ended it
+    int signal = 0;          // the signal that ended it; 0: none
+    std::string crash;       // how the system names its end: "signal 11, Segmentation fault"
+    bool lost = false;       // it ended, but how is unknown
+    bool late = false;       // the time limit was exceeded
+    bool overWorked = false; // the limit of processor time was exceeded
+    bool killed = false;     // the system or somebody killed it
+    JobRecord record;        // with its output, times and memory
 };
+
+// Both sides of the process as the system has it: job_process_posix.cpp, job_process_windows.cpp.
 
 // The parent's side.
 class JobProcess {
 public:
     // Starts `program` in a folder, with additional environment variables. After `limitSeconds` of wall-clock time it
-    // gets SIGTERM, and two seconds later SIGKILL. Errors: ErrorKind::unavailable.
-    static Result<std::unique_ptr<JobProcess>> start(const std::string& program, const std::filesystem::path& folder,
-                                                     const ChildRequest& request,
+    // is asked to end where the system can, and is ended two seconds later. Errors: ErrorKind::unavailable.
+    static Result<std::unique_ptr<JobProcess>> start(const std::filesystem::path& program,
+                                                     const std::filesystem::path& folder, const ChildRequest& request,
                                                      const std::map<std::string, std::string>& environment,
                                                      double limitSeconds);
 
@@ -76,25 +82,30 @@ public:
     JobProcess& operator=(const JobProcess&) = delete;
     ~JobProcess(); // kills the process and all that it started
 
-    pid_t number() const { return process_; }
-    // Becomes readable when the process prints or ends; -1: its output is closed.
-    int descriptor() const { return messages_.get(); }
+    pid_t number() const;
     // Reads new output, and returns how the process ended, if it has. Call this when it may have ended, and regularly.
     std::optional<Ending> look();
+    // Waits until one of the processes prints or ends, 50 ms at most.
+    static void waitForOne(std::span<JobProcess* const> processes);
 
 private:
-    using Clock = std::chrono::steady_clock;
+    struct System;
+    explicit JobProcess(std::unique_ptr<System> system);
 
-    JobProcess(Descriptor messages, std::chrono::duration<double> limit) : messages_(std::move(messages)), limit_(limit)
-    {
-    }
-    void listen();
+    std::unique_ptr<System> system_;
+};
 
-    pid_t process_ = -1; // -1: none, or reaped
-    Descriptor messages_;
-    Clock::time_point began_ = Clock::now();
-    std::chrono::duration<double> limit_;
-    bool terminated_ = false, killed_ = false; // SIGTERM, SIGKILL were sent
+// The process itself: ends when its parent does, leaves no memory in files, and takes the limits of the request that
+// the parent cannot watch.
+void limitJobProcess(const ChildRequest& request);
+
+// Keeps the beginning and the end of what a process prints.
+class KeptOutput {
+public:
+    void add(std::string_view text);
+    std::string text() const { return cut_ ? head_ + "\n...\n" + tail_ : head_ + tail_; }
+
+private:
     std::string head_, tail_;
     bool cut_ = false; // output between the two was dropped
 };

@@ -1,16 +1,14 @@
 #include <chrono>
-#include <ctime>
+#include <cstdio>
 #include <memory>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include "batch/record.hpp"
-#include "files/sandbox/process.hpp"
+#include "files/bytes.hpp"
+#include "files/system/system.hpp"
 
 namespace cotan::app {
 
@@ -21,43 +19,26 @@ constexpr std::size_t kChunk = 1 << 20;
 
 std::string digits(XXH128_hash_t hash) { return fmt::format("{:016x}{:016x}", hash.high64, hash.low64); }
 
-std::int64_t nanoseconds(const timespec& time) { return std::int64_t(time.tv_sec) * 1'000'000'000 + time.tv_nsec; }
-
 bool sameFile(const FileState& a, const FileState& b)
 {
     return a.bytes == b.bytes && a.modified == b.modified && a.changed == b.changed && a.number == b.number;
 }
 
-// Everything but the digest of the contents.
-FileState statusOf(const std::filesystem::path& path, const std::string& file)
-{
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0)
-        return {.file = file, .digest = "missing"};
-    if (!S_ISREG(status.st_mode)) // the files within a folder have states of their own
-        return {.file = file, .digest = S_ISDIR(status.st_mode) ? "folder" : "special"};
-    FileState state{.file = file, .digest = {}, .bytes = std::uint64_t(status.st_size)};
-    state.modified = nanoseconds(status.st_mtim);
-    state.changed = nanoseconds(status.st_ctim);
-    state.number = status.st_ino;
-    return state;
-}
-
 std::string contentsOf(const std::filesystem::path& path)
 {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
-    if (file.get() < 0)
+    const OpenFile file(openStream(path, "rb"));
+    if (!file)
         return "unreadable";
     const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
     XXH3_128bits_reset(state.get());
     thread_local std::vector<char> chunk(kChunk);
     for (;;) {
-        const ssize_t got = ::read(file.get(), chunk.data(), chunk.size());
-        if (got < 0)
+        const std::size_t got = std::fread(chunk.data(), 1, chunk.size(), file.get());
+        XXH3_128bits_update(state.get(), chunk.data(), got);
+        if (std::ferror(file.get()) != 0)
             return "unreadable";
-        if (got == 0)
+        if (got < chunk.size())
             return digits(XXH3_128bits_digest(state.get()));
-        XXH3_128bits_update(state.get(), chunk.data(), std::size_t(got));
     }
 }
 
@@ -69,13 +50,6 @@ std::int64_t nowNanoseconds()
 {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
         .count();
-}
-
-std::int64_t fileClockNanoseconds()
-{
-    timespec now{};
-    ::clock_gettime(CLOCK_REALTIME_COARSE, &now);
-    return nanoseconds(now);
 }
 
 FileState FileStates::of(const std::string& file)

@@ -11,7 +11,6 @@
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/json.hpp"
-#include "files/sandbox/process.hpp"
 #include "terminal/command_words.hpp"
 
 namespace cotan::app {

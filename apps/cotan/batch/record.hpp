@@ -33,6 +33,9 @@ std::int64_t nowNanoseconds();
 // an earlier time of change, while they may have one before nowNanoseconds().
 std::int64_t fileClockNanoseconds();
 
+// Everything but the digest of the contents, unless there are none: file_status_posix.cpp, file_status_windows.cpp.
+FileState statusOf(const std::filesystem::path& path, const std::string& file);
+
 // Caches the states of files in a folder. A file is read once, and again only if its metadata has changed.
 class FileStates {
 public:

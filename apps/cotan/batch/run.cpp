@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
-#include <cstring>
 #include <functional>
 #include <list>
 #include <map>
@@ -14,14 +12,13 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <poll.h>
 
 #include "core/one_line.hpp"
 #include "core/try.hpp"
 #include "files/bytes.hpp"
-#include "files/children.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/request.hpp"
+#include "files/system/system.hpp"
 
 namespace cotan::app {
 
@@ -29,8 +26,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kTick = 50;                                    // milliseconds between two checks of the deadlines
-constexpr int kClosingTick = 1;                              // the same once a process has closed its output
 constexpr auto kRetryDelay = std::chrono::milliseconds(200); // while all remaining jobs run in other processes
 constexpr auto kFileClockStep = std::chrono::milliseconds(1);
 constexpr std::size_t kMaxReportBytes = std::size_t(256) << 20;
@@ -115,33 +110,30 @@ void judge(const Ending& ending, const RunOptions& limits, JobRecord& record)
         record.code = int(ErrorKind::unavailable);
         return is(JobState::failed, "it ended, but how is unknown: the system has discarded its exit code");
     }
-    const int status = ending.status;
-    const bool signalled = WIFSIGNALED(status);
-    const int signal = signalled ? WTERMSIG(status) : 0, code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    if (signalled)
-        record.signal = signal;
-    else
-        record.code = code;
-    const bool noMemory = code == kNoMemoryCode || (signalled && record.output.find("bad_alloc") != std::string::npos);
+    record.code = ending.code;
+    if (ending.signal != 0)
+        record.signal = ending.signal;
+    const bool noMemory =
+        ending.code == kNoMemoryCode || (!ending.code && record.output.find("bad_alloc") != std::string::npos);
     if (ending.late)
         return is(JobState::late, fmt::format("took longer than {:.4g} s and was terminated", limits.seconds));
-    if (signal == SIGXCPU)
+    if (ending.overWorked)
         return is(JobState::late,
                   fmt::format("took more than {:.4g} s of processor time and was terminated", limits.processorSeconds));
     if (noMemory && limits.megabytes > 0)
         return is(JobState::memory, fmt::format("needed more memory than {} MiB", limits.megabytes));
     if (noMemory)
         return is(JobState::memory, "needed more memory than is available");
-    if (signal == SIGKILL)
+    if (ending.killed)
         return is(JobState::crashed,
-                  fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps out of memory", record.megabytes));
-    if (signalled)
+                  fmt::format("was killed ({}) with {:.0f} MiB in use, perhaps out of memory",
+                              ending.crash.substr(0, ending.crash.find(',')), record.megabytes));
+    if (!ending.code)
         return is(JobState::crashed,
-                  fmt::format("crashed (signal {}, {}) with {:.0f} MiB in use: {}", signal, ::strsignal(signal),
-                              record.megabytes, words));
-    if (code == 0)
+                  fmt::format("crashed ({}) with {:.0f} MiB in use: {}", ending.crash, record.megabytes, words));
+    if (*ending.code == 0)
         return is(JobState::done, "");
-    is(code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, words);
+    is(*ending.code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, words);
 }
 
 // Runs a batch in one thread, which starts processes, waits for them, and stores their results.
@@ -229,7 +221,7 @@ private:
         for (const std::string& output : requested.outputs)
             if (const fs::path within = (list_.folder / output).parent_path(); !isPattern(within.string()))
                 fs::create_directories(within, ignored); // else the command reports it
-        request.parent = ::getpid();
+        request.parent = thisProcess();
         const RunOptions limits = optionsOf(options_, requested.options);
         request.megabytes = limits.megabytes;
         request.processorSeconds = std::size_t(limits.processorSeconds);
@@ -268,14 +260,10 @@ private:
                 std::this_thread::sleep_for(kRetryDelay);
             return Done{};
         }
-        std::vector<pollfd> descriptors;
-        int tick = kTick;
-        for (const Running& r : running_) {
-            descriptors.push_back({r.process->descriptor(), POLLIN, 0});
-            if (r.process->descriptor() < 0)
-                tick = kClosingTick;
-        }
-        ::poll(descriptors.data(), descriptors.size(), tick);
+        std::vector<JobProcess*> processes;
+        for (const Running& r : running_)
+            processes.push_back(r.process.get());
+        JobProcess::waitForOne(processes);
         for (auto at = running_.begin(); at != running_.end();) {
             const pid_t number = at->process->number();
             const auto ending = at->process->look();
@@ -307,7 +295,7 @@ private:
         JobRecord record = ending.record;
         record.runs = runs_[r.job];
         judge(ending, optionsOf(options_, job.options), record);
-        if (ending.lost || !WIFEXITED(ending.status) || record.state == JobState::memory)
+        if (!ending.code || record.state == JobState::memory)
             for (const std::string& output : job.outputs)
                 removeParts((list_.folder / output).parent_path(), number);
         const fs::path report = job.json.empty() ? r.work / kReportName : list_.folder / job.json;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "batch/job.hpp"
 #include "batch/store.hpp"
 #include "cotan/result.hpp"
+#include "files/system/program.hpp"
 
 namespace cotan::app {
 
@@ -23,7 +25,7 @@ struct RunOptions {
     int retries = 0;             // further runs of a job ended by a limit, a signal or a missing resource
     bool again = false;          // also run jobs with a stored result
     Thumbnails thumbnails = Thumbnails::pictures;
-    std::string program = "/proc/self/exe"; // a program that begins with isJobProcess
+    std::filesystem::path program = sameProgram(); // a program that begins with isJobProcess
 };
 
 // A job and its result.

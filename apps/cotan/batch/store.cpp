@@ -1,16 +1,13 @@
 #include "batch/store.hpp"
 
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <random>
 #include <string>
 #include <string_view>
 #include <system_error>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include "core/try.hpp"
 #include "files/bytes.hpp"
@@ -26,6 +23,7 @@ constexpr std::size_t kMaxRecordBytes = 64 << 20;
 constexpr const char* kResults = "results";
 constexpr const char* kWork = "work";
 constexpr const char* kLock = "lock";
+constexpr int kTries = 100; // of names that others have
 
 // The hash under which a record is stored. It is the same on all machines: it depends on neither folders nor times.
 std::string keyOf(const std::vector<std::string>& words, const std::string& version)
@@ -38,19 +36,17 @@ std::string keyOf(const std::vector<std::string>& words, const std::string& vers
     return digestOf(text);
 }
 
-bool lockWhole(const Descriptor& file) { return ::flock(file.get(), LOCK_EX | LOCK_NB) == 0; }
-
 // Removes work folders of ended processes: their lock is free, or they have no lock file after a minute.
 void removeStale(const fs::path& work)
 {
     constexpr auto kTimeForALock = std::chrono::minutes(1);
     std::error_code ignored;
     for (fs::directory_iterator at(work, ignored), end; !ignored && at != end; at.increment(ignored)) {
-        const Descriptor lock(::open((at->path() / kLock).c_str(), O_RDWR | O_CLOEXEC));
+        const FileLock::State lock = FileLock(at->path() / kLock, 0, /*create*/ false).state(); // and lets it go
         std::error_code none;
         const auto made = fs::last_write_time(at->path(), none);
         const bool old = !none && made + kTimeForALock < fs::file_time_type::clock::now();
-        if (lock.get() >= 0 ? lockWhole(lock) : old)
+        if (lock == FileLock::ours || (lock == FileLock::missing && old))
             fs::remove_all(at->path(), none);
     }
 }
@@ -65,6 +61,7 @@ Store::Store(fs::path folder, std::string version)
 Store::~Store()
 {
     std::error_code ignored;
+    workLock_ = FileLock(); // Windows removes no open files
     if (!work_.empty())
         fs::remove_all(work_, ignored);
 }
@@ -112,29 +109,27 @@ Status Store::keep(const std::vector<std::string>& words, const JobRecord& recor
 std::optional<Claim> Store::claim(const std::vector<std::string>& words) const
 {
     // Locks one byte of a shared file per job, far past its end: no file is created that could be left behind.
-    Claim file(::open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-    struct flock range {};
-    range.l_type = F_WRLCK;
-    range.l_whence = SEEK_SET;
-    range.l_start = off_t(std::strtoull(keyOf(words, version_).substr(0, 15).c_str(), nullptr, 16));
-    range.l_len = 1;
-    if (file.get() >= 0 && ::fcntl(file.get(), F_OFD_SETLK, &range) != 0 && (errno == EAGAIN || errno == EACCES))
+    Claim claim(folder_ / kLock, std::strtoull(keyOf(words, version_).substr(0, 15).c_str(), nullptr, 16),
+                /*create*/ true);
+    if (claim.state() == FileLock::elsewhere)
         return std::nullopt;
-    return file;
+    return claim;
 }
 
 Result<fs::path> Store::workFolder()
 {
     if (!work_.empty())
         return work_;
-    std::string pattern = (folder_ / kWork / "XXXXXX").string();
-    if (!::mkdtemp(pattern.data()))
+    std::random_device random;
+    std::error_code problem;
+    for (int tries = 0; work_.empty() && tries < kTries && !problem; ++tries)
+        if (const fs::path folder = folder_ / kWork / fmt::format("{:08x}", random());
+            fs::create_directory(folder, problem))
+            work_ = folder;
+    if (work_.empty())
         return outputError(
-            fmt::format("{}: cannot create a folder there: {}", (folder_ / kWork).string(), reasonOf(errno)));
-    work_ = pattern;
-    workLock_ = Descriptor(::open((work_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-    if (workLock_.get() >= 0)
-        lockWhole(workLock_);
+            fmt::format("{}: cannot create a folder there: {}", (folder_ / kWork).string(), problem.message()));
+    workLock_ = FileLock(work_ / kLock, 0, /*create*/ true);
     return work_;
 }
 

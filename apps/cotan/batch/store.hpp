@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "batch/file_lock.hpp"
 #include "batch/record.hpp"
 #include "cotan/result.hpp"
-#include "files/sandbox/process.hpp"
 
 namespace cotan::app {
 
 // The exclusive right to run one job. It ends with this object, and with the process.
-using Claim = Descriptor;
+using Claim = FileLock;
 
 class Store {
 public:
@@ -47,7 +47,7 @@ private:
 
     std::filesystem::path folder_, work_;
     std::string version_;
-    Descriptor workLock_;
+    FileLock workLock_;
 };
 
 } // namespace cotan::app

@@ -11,14 +11,11 @@
 #include <io.h>
 
 #include "files/sandbox/process_windows.hpp"
-// After windows.h.
-#include <psapi.h>
 
 namespace cotan {
 
 namespace {
 
-constexpr double kMegabyte = 1 << 20;
 constexpr DWORD kLookEvery = 10; // ms, at the child's memory and times
 
 bool writePipe(HANDLE pipe, std::span<const std::byte> bytes)
@@ -49,21 +46,6 @@ Handle makeJob()
     ::SetInformationJobObject(job.get(), JobObjectExtendedLimitInformation, &limits, sizeof limits);
     ::SetInformationJobObject(job.get(), JobObjectBasicUIRestrictions, &windows, sizeof windows);
     return job;
-}
-
-double processorSeconds(HANDLE process)
-{
-    FILETIME created{}, ended{}, kernel{}, user{};
-    ::GetProcessTimes(process, &created, &ended, &kernel, &user);
-    const auto seconds = [](const FILETIME& t) { return 1e-7 * (4294967296.0 * t.dwHighDateTime + t.dwLowDateTime); };
-    return seconds(kernel) + seconds(user);
-}
-
-double megabytesOf(HANDLE process)
-{
-    PROCESS_MEMORY_COUNTERS counters{};
-    ::K32GetProcessMemoryInfo(process, &counters, sizeof counters);
-    return double(std::max(counters.PagefileUsage, counters.WorkingSetSize)) / kMegabyte;
 }
 
 } // namespace

@@ -4,9 +4,38 @@
 #include <array>
 #include <system_error>
 
+// After windows.h.
+#include <psapi.h>
+
 namespace cotan {
 
 namespace {
+
+constexpr double kMegabyte = 1 << 20;
+
+// Ours with these changes, as CreateProcessW takes it: sorted, and case does not distinguish names.
+std::wstring environmentWith(const std::map<std::string, std::string>& changes)
+{
+    struct Less {
+        bool operator()(const std::wstring& a, const std::wstring& b) const
+        {
+            return ::CompareStringOrdinal(a.data(), int(a.size()), b.data(), int(b.size()), TRUE) == CSTR_LESS_THAN;
+        }
+    };
+    std::map<std::wstring, std::wstring, Less> all;
+    wchar_t* const ours = ::GetEnvironmentStringsW();
+    for (std::wstring_view rest = ours; !rest.empty(); rest = rest.data() + rest.size() + 1) {
+        const std::size_t sign = rest.find(L'=', 1); // names of folders of drives begin with it
+        all[std::wstring(rest.substr(0, sign))] = sign == rest.npos ? L"" : rest.substr(sign + 1);
+    }
+    ::FreeEnvironmentStringsW(ours);
+    for (const auto& [name, value] : changes)
+        all[std::filesystem::path(name).native()] = std::filesystem::path(value).native();
+    std::wstring block;
+    for (const auto& [name, value] : all)
+        block += name + L"=" + value + L'\0';
+    return block + L'\0';
+}
 
 // As the C runtime of the child takes a word apart again:
 // https://learn.microsoft.com/cpp/c-language/parsing-c-command-line-arguments
@@ -26,6 +55,37 @@ std::wstring quoted(const std::wstring& word)
 } // namespace
 
 std::string lastReason() { return std::system_category().message(int(::GetLastError())); }
+
+Handle endingJob()
+{
+    Handle job(::CreateJobObjectW(nullptr, nullptr));
+    JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
+    limits.BasicLimitInformation.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE;
+    ::SetInformationJobObject(job.get(), JobObjectExtendedLimitInformation, &limits, sizeof limits);
+    return job;
+}
+
+double processorSeconds(HANDLE process)
+{
+    FILETIME created{}, ended{}, kernel{}, user{};
+    ::GetProcessTimes(process, &created, &ended, &kernel, &user);
+    const auto seconds = [](const FILETIME& t) { return 1e-7 * (4294967296.0 * t.dwHighDateTime + t.dwLowDateTime); };
+    return seconds(kernel) + seconds(user);
+}
+
+double megabytesOf(HANDLE process)
+{
+    PROCESS_MEMORY_COUNTERS counters{};
+    ::K32GetProcessMemoryInfo(process, &counters, sizeof counters);
+    return double(std::max(counters.PagefileUsage, counters.WorkingSetSize)) / kMegabyte;
+}
+
+double peakMegabytesOf(HANDLE job)
+{
+    JOBOBJECT_EXTENDED_LIMIT_INFORMATION found{};
+    ::QueryInformationJobObject(job, JobObjectExtendedLimitInformation, &found, sizeof found, nullptr);
+    return double(found.PeakProcessMemoryUsed) / kMegabyte;
+}
 
 bool Pipe::open(bool childReads)
 {
@@ -70,11 +130,14 @@ std::string spawn(const SpawnRequest& request, Handle& process)
                                        inherited.size() * sizeof(HANDLE), nullptr, nullptr)
             == 0)
         return lastReason();
+    std::wstring environment = request.environment.empty() ? L"" : environmentWith(request.environment);
     PROCESS_INFORMATION started{};
-    const BOOL fine = ::CreateProcessW(request.program.c_str(), line.data(), nullptr, nullptr, TRUE,
-                                       EXTENDED_STARTUPINFO_PRESENT | CREATE_SUSPENDED | CREATE_NO_WINDOW
-                                           | CREATE_NEW_PROCESS_GROUP, // so that Ctrl-C reaches only us
-                                       nullptr, nullptr, &startup.StartupInfo, &started);
+    const BOOL fine =
+        ::CreateProcessW(request.program.c_str(), line.data(), nullptr, nullptr, TRUE,
+                         EXTENDED_STARTUPINFO_PRESENT | CREATE_SUSPENDED | CREATE_NO_WINDOW | CREATE_UNICODE_ENVIRONMENT
+                             | CREATE_NEW_PROCESS_GROUP, // so that Ctrl-C reaches only us
+                         request.environment.empty() ? nullptr : environment.data(),
+                         request.folder.empty() ? nullptr : request.folder.c_str(), &startup.StartupInfo, &started);
     const std::string why = fine ? std::string() : lastReason();
     ::DeleteProcThreadAttributeList(startup.lpAttributeList);
     if (!fine)

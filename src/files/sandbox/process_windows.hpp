@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -51,10 +52,20 @@ std::size_t readPipe(HANDLE pipe, std::span<std::byte> bytes);
 // A program to start as a child process.
 struct SpawnRequest {
     std::filesystem::path program;
-    std::vector<std::string> arguments; // after the program's name, in UTF-8
-    HANDLE input{}, output{}, error{};  // its standard streams, and all that it inherits; null: none
-    HANDLE job{};                       // that it belongs to
+    std::vector<std::string> arguments;               // after the program's name, in UTF-8
+    HANDLE input{}, output{}, error{};                // its standard streams, and all that it inherits; null: none
+    HANDLE job{};                                     // that it belongs to
+    std::filesystem::path folder{};                   // working folder; empty: ours
+    std::map<std::string, std::string> environment{}; // variables that are added to ours or replace them
 };
+
+// A job whose processes end with its last handle.
+Handle endingJob();
+
+// Times and memory of a process, also after its end; a job's greatest process.
+double processorSeconds(HANDLE process);
+double megabytesOf(HANDLE process);
+double peakMegabytesOf(HANDLE job);
 
 // Starts the program without a console. Returns an empty text, or the system's reason.
 std::string spawn(const SpawnRequest& request, Handle& process);
