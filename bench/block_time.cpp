@@ -21,7 +21,7 @@
 #include "cotan/image.hpp"
 #include "image/astc.hpp"
 #include "image/dds.hpp"
-#include "map_files/block.hpp"
+#include "maps/blocks/block.hpp"
 
 namespace {
 
@@ -146,7 +146,7 @@ Image decodedAstc(int width, int height, const Bytes& blocks)
 Bytes byCotan(const Image& map)
 {
     Bytes blocks;
-    cotan::withThreads(1, [&] { blocks = cotan::app::encodeBc5(map, {}); });
+    cotan::withThreads(1, [&] { blocks = cotan::maps::encodeBc5(map, {}); });
     return blocks;
 }
 
@@ -207,7 +207,7 @@ int main(int count, char** files)
         };
         const auto bc7 = [&] {
             Bytes blocks;
-            cotan::withThreads(1, [&] { blocks = cotan::app::encodeBc7(target, {}); });
+            cotan::withThreads(1, [&] { blocks = cotan::maps::encodeBc7(target, {}); });
             return blocks;
         };
         const std::tuple<const char*, cotan::DdsCode, std::function<Bytes()>> wide[] = {

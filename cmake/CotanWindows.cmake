@@ -5,7 +5,7 @@ if(WIN32)
 endif()
 # For pages: small modules without files. The preset `web-tool` builds the tool instead, for Node.js.
 set(COTAN_FOR_PAGES OFF)
-if(EMSCRIPTEN AND NOT COTAN_WEB_SYSTEM)
+if(EMSCRIPTEN AND NOT COTAN_WEB_TOOL)
   set(COTAN_FOR_PAGES ON)
 endif()
 # Programs for Windows: a manifest, and the version that Explorer shows. Does nothing on other systems.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,6 +43,55 @@ json converted(const TemporaryFolder& folder, const std::string& compress, const
 }
 
 json rootOfFile(const std::filesystem::path& file) { return json::parse(readWhole(file), nullptr, false); }
+
+// The maps of a bake as blocks are those of `map convert` from its pixels, and a model's are those of its map.
+TEST(ConvertCompress, everyCommandMakesTheSameBlocksOfAMap)
+{
+    const TemporaryFolder folder;
+    write(quad(2), folder.path());
+    std::ofstream(folder / "high.obj") << "v 0 0 0\nv 2 0 0.2\nv 2 1 0.1\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+    const auto run = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--quiet", "--overwrite"});
+        const ToolRun done = runTool(words, folder.path());
+        EXPECT_EQ(done.code, 0) << done.err;
+    };
+    const std::vector<std::string> bake = {"bake", "--high", "high.obj", "--low", "quad.gltf", "--size", "40x36"};
+    const auto bakeTo = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), bake.begin(), bake.end());
+        run(more);
+    };
+    for (const std::string kind : {"normal", "object-normal"}) {
+        bakeTo({"--kind", kind, "-o", "pixels.png"});
+        for (const std::string word : {"bc5", "bc7", "uastc"})
+            for (const std::string file : {"a.ktx2", "a.dds"}) {
+                const bool mobile = word == "uastc";
+                if ((mobile && file == "a.dds") || (kind != "normal" && word != "bc7" && word != "uastc"))
+                    continue;
+                const std::string stored = kind == "normal" ? "opengl" : "object,exact";
+                bakeTo({"--kind", kind, "--compress", word, "-o", file});
+                run({"map", "convert", "pixels.png", "--from", stored, "--to", stored, "--compress", word, "--mips",
+                     "-o", "b" + file});
+                EXPECT_TRUE(readWhole(folder / file) == readWhole(folder / ("b" + file))) << kind << word << file;
+            }
+    }
+    bakeTo({"-o", "pixels.gltf"});
+    bakeTo({"--compress", "uastc", "-o", "blocks.gltf"});
+    const auto nameIn = [&](const char* file) { return rootOfFile(folder / file)["images"].back()["uri"]; };
+    run({"map", "convert", nameIn("pixels.gltf"), "--from", "gltf", "--to", "gltf", "--compress", "uastc", "--mips",
+         "-o", "model.ktx2"});
+    EXPECT_TRUE(readWhole(folder / nameIn("blocks.gltf")) == readWhole(folder / "model.ktx2"));
+    for (const auto& [words, message] :
+         {std::pair(std::vector<std::string>{"--kind", "ao", "-o", "ao.dds"}, ".dds files hold maps of normals"),
+          {{"--compress", "bc6", "-o", "a.dds"}, "--compress: expected one of none, bc3"},
+          {{"--compress", "astc-4x4", "-o", "a.dds"}, "--compress: astc-4x4 is for .ktx2 files"},
+          {{"--compress", "bc5", "-o", "a.png"}, "--compress: expected -o MODEL.glb or .gltf, or a map in .dds"}}) {
+        std::vector<std::string> all = bake;
+        all.insert(all.end(), words.begin(), words.end());
+        const ToolRun done = runTool(all, folder.path());
+        EXPECT_EQ(done.code, 1);
+        EXPECT_NE(done.err.find(message), std::string::npos) << done.err;
+    }
+}
 
 // The judge of the angles is `map diff` on the written files.
 TEST(ConvertCompress, bothNormalMapsBecomeBlocksAndColoursStay)

@@ -1,5 +1,5 @@
 // BC5 and BC4, decoded by the definition of their blocks, and BC7, decoded by OpenImageIO.
-#include "map_files/block.hpp"
+#include "maps/blocks/block.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,6 @@
 
 namespace cotan::maps {
 
-using namespace app;
 namespace {
 
 using Half = std::array<double, 16>;

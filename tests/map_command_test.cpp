@@ -461,7 +461,8 @@ TEST(MapCommand, options_that_textures_cannot_store_are_refused_in_one_line)
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 8)));
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
         {{"--compress", "bc1", "-o", "x.dds"},
-         "--compress: expected one of none, bc3, bc5, bc7, uastc, eac-rg11, astc-4x4, astc-5x4, astc-5x5, astc-6x5, "
+         "--compress: expected one of none, bc3, bc5, bc5-snorm, bc7, uastc, eac-rg11, astc-4x4, astc-5x4, astc-5x5, "
+         "astc-6x5, "
          "astc-6x6, astc-8x5, astc-8x6, astc-8x8; found 'bc1'"},
         {{"--to", "gltf,orthographic", "--compress", "bc7", "-o", "x.ktx2"}, "--to: bc7 holds x, y and z"},
         {{"--compress", "bc5", "-o", "x.png"}, "--compress: blocks are for .dds and .ktx2 files"},

@@ -14,7 +14,7 @@
 #include "map_files/map_file.hpp"
 #include "map_files/mips.hpp"
 #include "map_files/stream.hpp"
-#include "map_files/texture_file.hpp"
+#include "maps/textures/texel_code.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::maps {
@@ -220,7 +220,8 @@ TEST(MapStored, unsupportedTextureFormatsAreReported)
     }
     EXPECT_EQ(said("none", "16", "gltf", "a.png"), "rgba8") << "which is not asked about bits";
     EXPECT_EQ(said("bc6", "8", "gltf", "a.dds"),
-              "options.compress: expected one of none, bc3, bc5, bc7, uastc, eac-rg11, astc-4x4, astc-5x4, astc-5x5, "
+              "options.compress: expected one of none, bc3, bc5, bc5-snorm, bc7, uastc, eac-rg11, astc-4x4, astc-5x4, "
+              "astc-5x5, "
               "astc-6x5, astc-6x6, astc-8x5, astc-8x6, astc-8x8; found 'bc6'");
     EXPECT_EQ(said("bc5", "8", "gltf", "a.png"), "options.compress: blocks are for .dds and .ktx2 files; found '.png'");
     EXPECT_EQ(said("none", "16", "gltf", "a.ktx2"),

@@ -2,18 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <fstream>
 
 #include "cotan/convention.hpp"
-#include "map_files/texture_file.hpp"
-#include "run_tool.hpp"
+#include "maps/textures/texel_code.hpp"
 
 namespace cotan::maps {
 
-using namespace app;
 namespace {
-
-using test::readWhole, test::TemporaryFolder;
 
 // Access to little-endian numbers of a file.
 class BytesOfFile {
@@ -48,12 +43,16 @@ TexelCode twoOf(TexelCode code)
 }
 
 // VkFormat, DXGI_FORMAT (0: not in DDS), bytes of a pixel or block, KHR_DF_MODEL, KHR_DF_CHANNEL.
-const std::vector<Format> kFormats = {
-    {TexelCode::rgba8, 37, 28, 4, 1, {0, 1, 2, 15}}, {TexelCode::bc5, 141, 83, 16, 132, {0, 1}},
-    {TexelCode::bc7, 145, 98, 16, 134, {0}},         {TexelCode::bc4, 139, 80, 8, 131, {0}},
-    {TexelCode::eacRg11, 155, 0, 16, 161, {0, 1}},   {TexelCode::eacR11, 153, 0, 8, 161, {0}},
-    {TexelCode(4, 4), 157, 0, 16, 162, {0}},         {TexelCode(6, 5), 163, 0, 16, 162, {0}},
-    {twoOf(TexelCode(8, 8)), 171, 0, 16, 162, {0}}};
+const std::vector<Format> kFormats = {{TexelCode::rgba8, 37, 28, 4, 1, {0, 1, 2, 15}},
+                                      {TexelCode::bc5, 141, 83, 16, 132, {0, 1}},
+                                      {TexelCode::bc5Signed, 142, 84, 16, 132, {0 | 0x40, 1 | 0x40}},
+                                      {TexelCode::bc7, 145, 98, 16, 134, {0}},
+                                      {TexelCode::bc4, 139, 80, 8, 131, {0}},
+                                      {TexelCode::eacRg11, 155, 0, 16, 161, {0, 1}},
+                                      {TexelCode::eacR11, 153, 0, 8, 161, {0}},
+                                      {TexelCode(4, 4), 157, 0, 16, 162, {0}},
+                                      {TexelCode(6, 5), 163, 0, 16, 162, {0}},
+                                      {twoOf(TexelCode(8, 8)), 171, 0, 16, 162, {0}}};
 
 // Levels of 6 x 5, 3 x 2 and 1 x 1 texels in which no two adjacent bytes are equal.
 std::vector<TextureLevel> levelsOf(const Format& format)
@@ -77,12 +76,10 @@ std::string textOf(const std::vector<std::byte>& bytes)
 
 TEST(TextureBytes, ktx2FollowsItsSpecification)
 {
-    const TemporaryFolder folder;
     for (const Format& format : kFormats)
         for (const std::string frame : {"", "smooth"}) {
             const auto levels = levelsOf(format);
-            ASSERT_TRUE(writeTextureFile(folder / "a.ktx2", format.code, levels, frame));
-            const BytesOfFile file(readWhole(folder / "a.ktx2"));
+            const BytesOfFile file(textureBytes("a.ktx2", format.code, levels, frame));
             EXPECT_EQ(file.text(0, 12), "\xabKTX 20\xbb\r\n\x1a\n");
             const bool blocks = format.code != TexelCode::rgba8;
             const std::size_t channels = format.channels.size(), described = 4 + 24 + 16 * channels;
@@ -110,8 +107,11 @@ TEST(TextureBytes, ktx2FollowsItsSpecification)
             for (std::size_t c = 0; c < channels; ++c) {
                 const std::size_t sample = at + 28 + 16 * c;
                 EXPECT_EQ(file.word(sample), c * bits | (bits - 1) << 16 | std::uint64_t(format.channels[c]) << 24);
-                EXPECT_EQ(file.number(sample + 4, 8), 0u);
-                EXPECT_EQ(file.word(sample + 12), blocks ? 0xffffffffu : 255u);
+                const bool isSigned =
+                    (format.channels[c] & 0x40) != 0; // KHR_DF_SAMPLE_DATATYPE_SIGNED: -2^31 to 2^31 - 1
+                EXPECT_EQ(file.word(sample + 4), 0u);
+                EXPECT_EQ(file.word(sample + 8), isSigned ? 0x80000000u : 0u);
+                EXPECT_EQ(file.word(sample + 12), isSigned ? 0x7fffffffu : blocks ? 0xffffffffu : 255u);
             }
             // Keys with their values in the order of the keys, each pair starting at a multiple of four.
             std::vector<std::string> keys;
@@ -148,13 +148,11 @@ TEST(TextureBytes, ktx2FollowsItsSpecification)
 
 TEST(TextureBytes, ddsIsAHeaderAndTheLevelsFromTheLargest)
 {
-    const TemporaryFolder folder;
     for (const Format& format : kFormats) {
         if (format.dxgi == 0)
             continue;
         const auto levels = levelsOf(format);
-        ASSERT_TRUE(writeTextureFile(folder / "a.DDS", format.code, levels, "smooth"));
-        const BytesOfFile file(readWhole(folder / "a.DDS"));
+        const BytesOfFile file(textureBytes("a.DDS", format.code, levels, "smooth"));
         EXPECT_EQ(file.text(0, 4), "DDS ");
         EXPECT_EQ(file.word(12), 5u);
         EXPECT_EQ(file.word(16), 6u);

@@ -66,9 +66,11 @@ TEST(ViewerTasks, canRunWithWhatIsOpen)
     State state;
     EXPECT_EQ(usable(state), "");
     state.a.normalMap = "a.png";
-    EXPECT_EQ(usable(state), "detect info fix-opengl fix-directx ");
+    EXPECT_EQ(usable(state), "detect info fix-opengl fix-directx blocks-desktop blocks-mobile blocks-web ");
     state.picture.model = "low.glb";
-    EXPECT_EQ(usable(state), "check-model detect info fix-opengl fix-directx convert tangents ");
+    EXPECT_EQ(
+        usable(state),
+        "check-model detect info fix-opengl fix-directx blocks-desktop blocks-mobile blocks-web convert tangents ");
     state.a.normalMap.clear();
     state.high = {"high.obj"};
     EXPECT_EQ(usable(state), "check-model convert tangents bake bake-maps ");
@@ -132,6 +134,24 @@ TEST(ViewerTasks, saveFixedMapsBesideTheMapUnderFreeNamesAndShowThem)
                 EXPECT_TRUE(std::equal(image->bytes8(), image->bytes8() + 96 * 64 * 4, wanted.bytes8()));
             }
         EXPECT_TRUE(test::readWhole(at.folder / (name + ".png")) == before);
+    }
+}
+
+TEST(ViewerTasks, saveBlocksAsTheCommandDoesAndShowThem)
+{
+    TaskSession at;
+    ASSERT_TRUE(writeImage(at.folder / "up.png", waves(true, 0.2)));
+    for (const std::string device : {"desktop", "mobile", "web"}) {
+        at.state().a.normalMap = at.in("up.png");
+        at.perform("blocks-" + device);
+        const std::string file = at.in("up-" + device + ".ktx2"), again = at.in("again.ktx2");
+        ASSERT_EQ(at.state().a.normalMap, file) << at.lines();
+        const test::ToolRun run =
+            test::runTool({"map", "convert", at.in("up.png"), "--from", "opengl", "--to", "opengl", "--max-degrees",
+                           "0.5", "--for", device, "--mips", "--overwrite", "-o", again},
+                          at.folder.path());
+        EXPECT_EQ(run.code, 0) << run.err;
+        EXPECT_TRUE(test::readWhole(file) == test::readWhole(again)) << device;
     }
 }
 

@@ -28,6 +28,9 @@ foreach(name arguments gltf_transform model_viewer react three three_choice type
   cotan_web_test(${name} ARGUMENTS ${tarball} ${modules} FIXTURES web npm)
 endforeach()
 
+cotan_web_test(textures ARGUMENTS ${tarball} ${PROJECT_SOURCE_DIR}/build/npm/npm/cotan-${PROJECT_VERSION}.tgz $<TARGET_FILE:cotan> ${modules}
+  FIXTURES web npm)
+
 # The command of the package, which `scripts/npm-package build/npm build/web-libraries` makes; compared with the tool.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)

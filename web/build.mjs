@@ -52,11 +52,11 @@ export const files = { ${Object.keys(files).map((name, k) => `'${name}': file${k
 
 // Documents of the repository that become pages, with their images. Links between them are kept; links to other files
 // become plain text.
-const documents = { theory: 'Theory', figures: 'The figures', cost: 'Cost' };
+const documents = { theory: 'Theory', figures: 'The figures', cost: 'Cost', mobile: 'Phones' };
 mkdirSync(join(out, 'pictures'));
 const [policy] = /<meta http-equiv="Content-Security-Policy"[^>]*>/.exec(readFileSync(join(here, 'index.html'), 'utf8'));
 for (const [name, title] of Object.entries(documents)) {
-  const headings = new Map(), text = marked.parse(readFileSync(join(root, 'docs/explanation', `${name}.md`), 'utf8'))
+  const headings = new Map(), text = marked.parse(readFileSync(join(root, name === 'mobile' ? 'docs/how-to' : 'docs/explanation', `${name}.md`), 'utf8'))
     .replace(/<h(\d)>(.*?)<\/h\1>/gs, (_, level, words) => `<h${level} id="${anchor(words, headings)}">${words}</h${level}>`)
     .replace(new RegExp(`href="(${Object.keys(documents).join('|')})\\.md(#[^"]*)?"`, 'g'), 'href="$1.html$2"')
     .replace(/<a href="(?!#|https?:|[a-z]+\.html)[^"]*">(.*?)<\/a>/gs, '$1')

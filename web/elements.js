@@ -42,3 +42,6 @@ export const percent = fraction => `${fraction > 0 && fraction < 0.001 ? 'below 
 
 // "12 bytes", "3.4 KB", "5.6 MB".
 export const size = bytes => bytes < 1000 ? `${bytes} bytes` : bytes < 1e6 ? `${(bytes / 1e3).toFixed(1)} KB` : `${(bytes / 1e6).toFixed(1)} MB`;
+
+/** Where the verdict leads to. */
+export const smallFiles = () => el('p', { class: 'small' }, 'On phones and in browsers a map can take a quarter of the memory: ', el('a', { href: 'mobile.html' }, 'which file to write, and what it costs'), '.');

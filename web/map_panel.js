@@ -1,5 +1,5 @@
 // The panel for a normal map: the findings, a preview and the fixed file.
-import { choice, degrees, download, el, percent, table } from './elements.js';
+import { choice, degrees, download, el, percent, smallFiles, table } from './elements.js';
 import { library } from './library.js';
 import { divider } from './divider.js';
 import { mapView } from './map_view.js';
@@ -50,7 +50,7 @@ export async function showMap(result, name, image) {
   result.replaceChildren(el('div', { class: 'result' },
     el('div', {}, verdict, advice, el('div', { class: 'choices' }, engine.element, button),
       table('Statistics of the map', rows(name, image, green, info)),
-      !known ? undefined : el('p', { class: 'small' }, 'On the command line: ', command), inThree),
+      !known ? undefined : el('p', { class: 'small' }, 'On the command line: ', command), inThree, smallFiles()),
     el('figure', { class: 'view' }, preview.element, halves.element,
       el('figcaption', {}, 'Move the pointer over the image to move the light. Left: the original map as your engine reads it.'))));
   await Promise.all([fix(), preview.ready]);

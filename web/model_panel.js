@@ -1,5 +1,5 @@
 // The panel for a model: the findings, a view in two halves, and the converted file.
-import { choice, degrees, download, el, numberField, size, table } from './elements.js';
+import { choice, degrees, download, el, numberField, size, smallFiles, table } from './elements.js';
 import { library } from './library.js';
 import { partsOf } from './parts_table.js';
 import { divider } from './divider.js';
@@ -157,7 +157,8 @@ function verdictOf(lint, name) {
       ['file', name], ['primitives, normal maps', `${lint.primitives.length}, ${lint.maps.length}`],
       ['error of unchanged maps with orthonormal', off('orthonormal')], ['with cotangent', off('cotangent')], ['with smooth', off('smooth')],
     ]),
-    el('p', { class: 'small' }, 'Degrees: mean over the surface, of the worst map, if the maps were made for MikkTSpace.')];
+    el('p', { class: 'small' }, 'Degrees: mean over the surface, of the worst map, if the maps were made for MikkTSpace.'),
+    ...(empty ? [] : [smallFiles()])];
 }
 
 // The check of the command line: fields for the limits, the verdict, and the report as a file.

@@ -15,8 +15,8 @@
 #include "cotan/convert.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
-#include "map_files/model_texture.hpp"
 #include "map_files/placed_images.hpp"
+#include "maps/textures/make_texture.hpp"
 #include "verify.hpp"
 
 namespace cotan::app {
@@ -49,6 +49,18 @@ MaterialImages imagesOf(const std::vector<BakedMap>& baked)
     return images;
 }
 
+// A map as a texture; says what it costs. file: for its extension; name: of the map in what is said.
+Result<std::vector<std::byte>> textureOf(const BakeJob& job, const Image& map, const Convention& convention,
+                                         const std::filesystem::path& file, const std::string& name)
+{
+    COTAN_TRY(texture,
+              maps::makeTexture(map, {.from = convention, .to = convention, .compress = job.compress, .file = file}));
+    if (texture->cost && job.compress != "none")
+        say(job.common, "{}: {} bytes in blocks; mean {:.3f}, 99 % {:.2f} degrees", name, texture->bytes.size(),
+            texture->cost->mean, texture->cost->percentile99);
+    return std::move(texture->bytes);
+}
+
 // Puts the maps into the low model. Warns if readers that generate MikkTSpace tangents would show them wrongly.
 Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& low, const std::vector<BakedMap>& baked)
 {
@@ -59,13 +71,10 @@ Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& 
                       .keepTangents = hasStoredTangents(low, options)};
     if (options.material >= 0) // by name, since a scene numbers its materials in the order in which meshes use them
         put.material = low.materials[std::size_t(options.material)].name;
-    if (job.compress) {
-        put.extension = extensionOf(*job.compress);
-        put.encode = [&](const Image& map, const std::string& name) -> Result<std::vector<std::byte>> {
-            COTAN_TRY(texture, modelTexture(map, *job.compress, {.expansion = put.expansion}));
-            say(job.common, "{}: {} bytes in blocks; mean {:.3f}, 99 % {:.2f} degrees", name, texture->bytes.size(),
-                texture->cost.mean, texture->cost.percentile99);
-            return std::move(texture->bytes);
+    if (job.compress != "none") {
+        put.extension = maps::extensionOf(job.compress);
+        put.encode = [&](const Image& map, const std::string& name) {
+            return textureOf(job, map, {.expansion = put.expansion}, "map.ktx2", name);
         };
     }
     const auto written = writeModelWithMaps(document, imagesOf(baked), put, job.files.maps.front());
@@ -124,10 +133,20 @@ Status writeMaps(const BakeJob& job, const BakeFiles& files, OpenBake& open, con
     if (!files.mask.empty())
         images.push_back({files.mask, &baked.front().mask});
     for (std::size_t i = 0; i < baked.size() && !open.document; ++i)
-        images.push_back({files.maps[i], &baked[i].image});
+        if (!maps::isTextureFile(files.maps[i]))
+            images.push_back({files.maps[i], &baked[i].image});
     if (!files.folder.empty())
         COTAN_CHECK(makeFolder(files.folder));
     COTAN_TRY(pending, writePending(images));
+    for (std::size_t i = 0; i < baked.size() && !open.document; ++i) {
+        const std::filesystem::path& file = files.maps[i];
+        if (!maps::isTextureFile(file))
+            continue;
+        COTAN_TRY(bytes, textureOf(job, baked[i].image, baked[i].format, file, file.string()));
+        COTAN_TRY(output, OutputFile::begin(file));
+        COTAN_CHECK(writeBytes(*output, {*bytes}));
+        pending->push_back(*std::move(output));
+    }
     if (open.document)
         COTAN_CHECK(writeBakedModel(job, *open.document, low, baked));
     return commitTogether(*pending);
@@ -270,7 +289,8 @@ void addBakeCommand(Arguments& tool)
         tool,
         {"bake",
          "Bake a normal map from a high-poly mesh onto a low-poly mesh.",
-         "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the maps in it: .glb, .gltf",
+         "the map: " + imageEndings([](const ImageFormat& f) { return f.writes || f.texture; }, ", ")
+             + "; or the low model with the maps in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
           "cotan bake --high statue.obj --low statue_low.obj --maps normal,ao,curvature,thickness -o maps/",
           "cotan bake --high statue.obj --low statue_low.obj --maps normal,ao -o statue_low.glb",

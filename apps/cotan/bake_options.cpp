@@ -105,7 +105,7 @@ Status checkOutputs(const BakeJob& job)
                                       imageEndings(&ImageFormat::negative, ", ", " or "), map.string()));
     // Baking may take hours, and only writing asks for these endings.
     for (const std::filesystem::path& file : job.files.maps)
-        if (!model)
+        if (!model && !maps::isTextureFile(file))
             COTAN_CHECK(checkImageName(file));
     if (!job.files.mask.empty())
         COTAN_CHECK(checkImageName(job.files.mask));
@@ -161,6 +161,28 @@ Status checkRays(const BakeJob& job)
     return Done{};
 }
 
+// Texture files hold maps of directions, as pixels or blocks; models hold some of the blocks.
+Status checkCompress(const BakeCommandOptions& o, const BakeJob& job)
+{
+    if (namedAsGltf(o.output))
+        return checkModelCompress(job.compress);
+    const std::filesystem::path& file = job.files.maps.front();
+    if (!maps::isTextureFile(file))
+        return job.compress == "none"
+            ? Status(Done{})
+            : usageError(fmt::format("--compress: expected -o MODEL.glb or .gltf, or a map in {}; found '{}'",
+                                     imageEndings(&ImageFormat::texture, ", ", " or "), o.output.string()));
+    for (const BakeKind kind : job.options.kinds)
+        if (!holdsDirections(kind))
+            return usageError(fmt::format("-o {}: {} files hold maps of normals; found {}", o.output.string(),
+                                          file.extension().string(), wordOf(kBakeKinds, kind)));
+    if (!job.options.packed.empty())
+        return usageError(fmt::format("-o {}: {} files hold maps of normals; found {}", o.output.string(),
+                                      file.extension().string(), job.options.packed.front().name));
+    const auto code = maps::codeFor(job.compress, "auto", job.options.stored.format, file);
+    return code ? Status(Done{}) : withOptionNames(code.error());
+}
+
 } // namespace
 
 Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
@@ -182,13 +204,7 @@ Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
     options.bake.frame = *frame;
     COTAN_TRY(format, formatOfMap(o.convention, o.expansion, namedAsGltf(o.output)));
     options.stored.format = *format;
-    COTAN_TRY(compress, parseModelCompress(o.compress));
-    job.compress = *compress;
-    if (job.compress && !namedAsGltf(o.output))
-        return usageError(
-            fmt::format("--compress: expected -o MODEL.glb or .gltf, which stores its normal maps as blocks "
-                        "(map mips does so for a map); found '{}'",
-                        o.output.string()));
+    COTAN_CHECK(checkCompress(o, job));
     COTAN_CHECK(parseHigh(o, job));
     COTAN_CHECK(checkRays(job));
     return job;
@@ -312,7 +328,12 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.choice("--bits", model.stored.type, kBitCounts,
              "bits per component: 8, 16 or 32 (float; " + imageEndings(&ImageFormat::negative, ", ", " or ") + ")")
         .in("N");
-    addModelCompress(a, o.compress);
+    a.option(
+         "--compress", o.job.compress,
+         "store normal maps as blocks with all their levels: in a model, as convert does; -o map.ktx2 and .dds take "
+         "all formats of map convert")
+        .in("NAME")
+        .offers(maps::compressionWords());
     a.flag("--dither", model.stored.dither, "with 8 bits: dither with a fixed pattern, so that slopes show no steps");
     a.option("--convention", o.convention, "how the map is stored: " + conventionWords())
         .in("WORDS")

@@ -12,7 +12,6 @@
 #include "common.hpp"
 #include "core/named_values.hpp"
 #include "loading.hpp"
-#include "map_files/texture_file.hpp"
 #include "terminal/arguments.hpp"
 
 namespace cotan::app {
@@ -52,7 +51,7 @@ struct BakeJob {
     bool perObject = false;      // a map for each object, with its name in all of `files`
     BakeFiles files;
     std::string device = "auto";
-    std::optional<TexelCode> compress; // blocks for the normal maps of a model
+    std::string compress = "none"; // blocks for the normal maps of a model, or for a map in a texture file
 
     bool makesSeveralTiles() const { return allTiles || options.tiles.size() > 1; }
     bool makes(BakeKind kind) const { return std::ranges::count(options.kinds, kind) > 0; }
@@ -69,7 +68,6 @@ struct BakeCommandOptions : CommonOptions {
     std::string udim;                   // empty: 1001
     std::string maps;                   // names of kinds
     std::vector<std::string> packed;    // channels of maps
-    std::string compress = "none";
 };
 
 // The names of the maps: of their kinds, then of the packed ones.

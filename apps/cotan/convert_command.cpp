@@ -15,7 +15,7 @@
 #include "cotan/render.hpp"
 #include "gltf_open.hpp"
 #include "loading.hpp"
-#include "map_files/model_texture.hpp"
+#include "maps/textures/make_texture.hpp"
 #include "parse.hpp"
 #include "picture/option_words.hpp"
 #include "picture_options.hpp"
@@ -32,7 +32,7 @@ struct ConvertJob {
     bool fileNamesFrom = false;               // the frame that the file names, if any, replaces maps->frames.from
     std::optional<ProvokingVertex> provoking; // none: vertices stay unchanged
     std::filesystem::path output;
-    std::optional<TexelCode> compress;   // blocks for the normal maps
+    std::string compress;                // blocks for the normal maps; none: they stay
     std::optional<VerifyOptions> verify; // of `maps`, whose frames it gets
 };
 
@@ -100,8 +100,8 @@ Result<ConvertJob> jobOf(const ConvertCommandOptions& o)
     if (verifies && std::filesystem::equivalent(o.model, o.output, ignored))
         return usageError(fmt::format("--verify: compares with {}, which -o replaces; expected another -o", o.model));
     const LoadLimits limits = limitsFor(o.verify.memory, chooses ? Pixels::normalMaps : Pixels::none);
-    COTAN_TRY(compress, parseModelCompress(o.compress));
-    ConvertJob job{o.model, limits, o.maps, o.from.empty(), o.provoking, o.output, *compress, o.verify};
+    COTAN_CHECK(checkModelCompress(o.compress));
+    ConvertJob job{o.model, limits, o.maps, o.from.empty(), o.provoking, o.output, o.compress, o.verify};
     job.maps->frames.from = *from;
     job.maps->frames.to = *to;
     if (chooses)
@@ -123,7 +123,7 @@ Result<ConvertJob> jobOf(const ConvertCommandOptions& o)
 
 struct CompressedMap {
     StoredMap stored;
-    AngleStatistics cost;
+    maps::TextureCost cost;
 };
 
 struct ConvertResult {
@@ -146,16 +146,15 @@ std::vector<PlannedOutput> outputsOf(const ConvertJob& job)
 // Stores the normal maps as blocks. Their notes join those of the conversion.
 Status compress(GltfDocument& document, const ConvertJob& job, const CommonOptions& terminal, ConvertResult& done)
 {
-    Convention convention;
-    convention.expansion = job.maps->expansion;
-    std::vector<AngleStatistics> costs;
+    const Convention convention{.expansion = job.maps->expansion};
+    std::vector<maps::TextureCost> costs;
     const auto encode = [&](const Image& map, const std::string&) -> Result<std::vector<std::byte>> {
-        COTAN_TRY(texture, modelTexture(map, *job.compress, convention));
-        costs.push_back(texture->cost);
+        COTAN_TRY(texture, maps::makeTexture(map, {.from = convention, .to = convention, .compress = job.compress}));
+        costs.push_back(texture->cost.value_or(maps::TextureCost{}));
         return std::move(texture->bytes);
     };
     auto stored = withProgress(terminal, 1, "compressing the maps", [&](Progress progress) {
-        return storeNormalMaps(document, encode, extensionOf(*job.compress), job.limits, progress);
+        return storeNormalMaps(document, encode, maps::extensionOf(job.compress), job.limits, progress);
     });
     if (!stored)
         return stored.error();
@@ -192,7 +191,7 @@ Result<ConvertResult> convert(ConvertJob job, const CommonOptions& terminal)
         COTAN_TRY(provoked, setGltfProvoking(opened->document, *job.provoking));
         done.provoked = std::move(*provoked);
     }
-    if (job.compress)
+    if (job.compress != "none")
         COTAN_CHECK(compress(opened->document, job, terminal, done));
     if (job.verify) // fails before anything is written
         COTAN_CHECK(makeFolder(job.verify->folder));
@@ -217,6 +216,8 @@ std::vector<std::string> linesOf(const ConvertJob& job, const ConvertResult& don
     for (const auto& [map, cost] : done.compressed)
         add({fmt::format("{}: {} bytes in blocks, before {}; mean {:.3f}, 99 % {:.2f} degrees", map.name,
                          map.bytesAfter, map.bytesBefore, cost.mean, cost.percentile99)});
+    if (!done.compressed.empty())
+        add({"which devices and engines read these blocks: docs/how-to/mobile.md"});
     if (job.provoking)
         add({provokingLine(done.provoked, *job.provoking)});
     const double before = double(done.written.bytesBefore), after = double(done.written.bytesAfter);

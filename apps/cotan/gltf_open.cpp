@@ -5,7 +5,7 @@
 #include "cotan/model.hpp"
 #include "files/bytes.hpp"
 #include "loading.hpp"
-#include "map_files/model_texture.hpp"
+#include "maps/textures/make_texture.hpp"
 
 namespace cotan::app {
 
@@ -51,15 +51,13 @@ void addModelCompress(Arguments& command, std::string& compress)
                 "store the normal maps of a model as KTX2 with all their levels: none; uastc (KHR_texture_basisu, for "
                 "every browser and device) or astc-4x4 to astc-8x8 (EXT_texture_astc, for phones)")
         .in("NAME")
-        .offers(modelCompressionWords());
+        .offers(maps::modelCompressionWords());
 }
 
-Result<std::optional<TexelCode>> parseModelCompress(const std::string& compress)
+Status checkModelCompress(const std::string& compress)
 {
-    if (compress == "none")
-        return std::optional<TexelCode>();
-    const auto code = modelCodeFor(compress);
-    return code ? Result<std::optional<TexelCode>>(*code) : withOptionNames(code.error());
+    const Status known = maps::checkModelCompression(compress);
+    return known ? known : withOptionNames(known.error());
 }
 
 } // namespace cotan::app

@@ -1,13 +1,11 @@
 // Shared by the commands that rewrite glTF files.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "common.hpp"
 #include "cotan/gltf.hpp"
-#include "map_files/texture_file.hpp"
 
 namespace cotan::app {
 
@@ -21,10 +19,10 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
 // `limits` leaves out: models that cannot be drawn are not rewritten. Errors: those of openGltf.
 Result<OpenGltf> openGltfToEdit(const std::string& model, const LoadLimits& limits, const CommonOptions& common);
 
-// The option --compress of commands that write models: a word of modelCompressionWords; and what it says, nothing for
-// none. Errors: as modelCodeFor.
+// The option --compress of commands that write models: a word of modelCompressionWords; and its check, as
+// checkModelCompression.
 void addModelCompress(Arguments& command, std::string& compress);
-Result<std::optional<TexelCode>> parseModelCompress(const std::string& compress);
+Status checkModelCompress(const std::string& compress);
 
 // The names of the written files, for a report.
 std::vector<std::string> fileNames(const GltfWritten& written);

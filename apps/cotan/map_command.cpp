@@ -3,8 +3,8 @@
 #include "commands.hpp"
 #include "core/try.hpp"
 #include "image/format_table.hpp"
-#include "map_files/texture_file.hpp"
 #include "map_options.hpp"
+#include "maps/textures/texel_code.hpp"
 
 namespace cotan::app {
 
@@ -25,20 +25,21 @@ void addCompress(Arguments& command, std::string& compress, std::string& swizzle
         .option(
             "--compress", compress,
             "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
-                + ": none; blocks of one byte per texel, bc5 (x and y only, more exact), bc7 (x, y, z and alpha) or "
+                + ": none; blocks of one byte per texel, bc5 (x and y only, more exact), bc5-snorm (the same for "
+                  "signed textures), bc7 (x, y, z and alpha) or "
                   "bc3 (x in alpha, y in green, for old engines); in .ktx2, for browsers, which turn it into the "
                   "format of their device, uastc (x, y and z, one byte); and for phones eac-rg11 (x and y, one byte) "
                   "or "
                   "astc-4x4 to astc-8x8 (16 bytes for as many texels; x, y and z, or two channels if --to has them)")
         .in("NAME")
-        .offers(compressionWords())
+        .offers(maps::compressionWords())
         .under(HelpGroup::output);
     command
         .option("--swizzle", swizzle,
                 "where a map of two channels has x and y: red and green (rg), red and alpha (ra or rrrg) or alpha and "
                 "green (ag); auto: ra for astc, ag for bc3, else rg")
         .in("NAME")
-        .offers(swizzleWords())
+        .offers(maps::swizzleWords())
         .under(HelpGroup::output);
 }
 

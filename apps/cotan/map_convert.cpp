@@ -17,7 +17,7 @@ namespace {
 struct MapConvertCommandOptions : MapOptions {
     std::string file, from, to;
     double strength = 1;
-    bool normalise = false, dither = false;
+    bool normalise = false, dither = false, mips = false;
     std::string mesh, frame = "smooth", compress = "none", swizzle = "auto", device;
     double maxDegrees = 0;
     TangentOrigin tangents = TangentOrigin::stored;
@@ -106,6 +106,7 @@ Status run(const MapConvertCommandOptions& o)
                                .compress = o.compress,
                                .swizzle = o.swizzle,
                                .strength = float(o.strength),
+                               .mips = o.mips,
                                .normalise = o.normalise,
                                .dither = o.dither,
                                .mesh = {}};
@@ -133,6 +134,8 @@ Status run(const MapConvertCommandOptions& o)
     const std::vector<std::string> warnings = warned(o, done->notes);
     sayTried(o, *done);
     const std::string bits = done->compress != "none" ? done->compress : bitsName(done->bits);
+    if (done->cost)
+        say(o, "{}: mean {:.3f}, 99 % {:.2f} degrees", done->compress, done->cost->mean, done->cost->percentile99);
     say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bits, describe(done->to));
     Json tried = Json::array();
     for (const TriedFormat& format : done->tried)
@@ -147,6 +150,8 @@ Status run(const MapConvertCommandOptions& o)
                         {"height", done->height},
                         {"bits", bits},
                         {"tried", tried},
+                        {"mean_degrees", done->cost ? Json(done->cost->mean) : Json()},
+                        {"percentile99_degrees", done->cost ? Json(done->cost->percentile99) : Json()},
                         {"invalid", done->counts.invalid},
                         {"clamped", done->counts.clamped},
                         {"warnings", warnings}});
@@ -182,6 +187,10 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
            "normalise every vector; without this, vectors of three channels keep their lengths")
         .under(HelpGroup::output);
     addCompress(a, o.compress, o.swizzle);
+    a.flag("--mips", o.mips,
+           "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
+               + ": write all levels, filtered as vectors (map mips stores the roughness that they need as well)")
+        .under(HelpGroup::output);
     a.option("--max-degrees", o.maxDegrees,
              "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
                  + ", in place of --compress: take the smallest format that costs no more than this angle on "

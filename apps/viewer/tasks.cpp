@@ -67,6 +67,18 @@ Task fixMap(const State& s, const char* title, const std::string& target)
     return task;
 }
 
+// The smallest blocks of a device that cost at most half a degree on average, read as the image is.
+Task saveBlocks(const State& s, const char* title, const char* device)
+{
+    Task task = mapTask(s, title, "convert");
+    const std::string file = nameBeside(s.a.normalMap, fmt::format("-{}", device), ".ktx2");
+    task.words.insert(
+        task.words.end(),
+        {"--from", "auto", "--to", "opengl", "--max-degrees", "0.5", "--for", device, "--mips", "-o", file});
+    task.shows = {"normal-map " + file, "convention "};
+    return task;
+}
+
 Task convertModel(const State& s, const char* title, std::vector<std::string> words, const char* ending)
 {
     Task task{title, std::move(words)};
@@ -108,6 +120,12 @@ constexpr TaskEntry kEntries[] = {
      [](const State& s) { return fixMap(s, "Save fixed map for OpenGL", "opengl"); }},
     {"fix-directx", "Save fixed map for DirectX, Unreal", kNeedsMap, hasMap,
      [](const State& s) { return fixMap(s, "Save fixed map for DirectX", "directx"); }},
+    {"blocks-desktop", "Save map as blocks for desktops", kNeedsMap, hasMap,
+     [](const State& s) { return saveBlocks(s, "Save map as blocks for desktops", "desktop"); }},
+    {"blocks-mobile", "Save map as blocks for phones", kNeedsMap, hasMap,
+     [](const State& s) { return saveBlocks(s, "Save map as blocks for phones", "mobile"); }},
+    {"blocks-web", "Save map as blocks for browsers", kNeedsMap, hasMap,
+     [](const State& s) { return saveBlocks(s, "Save map as blocks for browsers", "web"); }},
     {"convert", "Save model without tangents", kNeedsGltf, hasGltf,
      [](const State& s) { return convertModel(s, "Save model without tangents", {"convert"}, "-free"); }},
     {"tangents", "Save model with new tangents", kNeedsGltf, hasGltf,

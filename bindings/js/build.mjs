@@ -29,7 +29,7 @@ const put = (name, text) => {
 for (const file of fs.readdirSync(path.join(here, 'src')).filter((name) => name.endsWith('.js')))
   put(`src/${file}`, slim(fs.readFileSync(path.join(here, 'src', file), 'utf8')));
 
-for (const [name, built] of [['cotan', 'cotan_js_whole.wasm'], ['tangents', 'cotan_js_tangents.wasm']]) {
+for (const [name, built] of [['cotan', 'cotan_js_whole.wasm'], ['tangents', 'cotan_js_tangents.wasm'], ['textures', 'cotan_js_textures.wasm']]) {
   const bytes = fs.readFileSync(path.join(wasmFolder, built));
   fs.writeFileSync(path.join(packageFolder, `wasm/${name}.wasm`), bytes);
   const text = deflateRawSync(bytes, { level: 9, memLevel: 7 }).toString('base64'); // memLevel: shorter blocks suit code
@@ -50,6 +50,16 @@ const library = new Library();
 export const ready = library.load(bytes());
 ready.catch(() => {});
 export const { tangents, smooth, triangles, split, splitMirrored, packTriangles, packSmooth, packTangents } = tangentFunctions(library);
+export const version = () => library.version;
+export { CotanError };
+`,
+  textures: (way) => `import { CotanError, Library } from './src/instance.js';
+import { textureFunction } from './src/textures.js';
+import { bytes } from './wasm/textures_${way}.js';
+const library = new Library();
+export const ready = library.load(bytes());
+ready.catch(() => {});
+export const texture = textureFunction(library);
 export const version = () => library.version;
 export { CotanError };
 `,

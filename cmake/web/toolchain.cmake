@@ -12,11 +12,15 @@ list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR}/../headers)
 # 128-bit SIMD and for bulk memory instructions.
 set(flags "-fwasm-exceptions -msimd128 -mbulk-memory")
 set(CMAKE_CXX_FLAGS_INIT "-DGLM_FORCE_INLINE -include ${CMAKE_CURRENT_LIST_DIR}/libcxx_13.hpp")
-# The preset `web` makes small modules. `web-tool` makes the tool, with the libraries that scripts/web-libraries builds.
+# The preset `web` makes small modules, with Zstandard if there is a folder of libraries. `web-tool` makes the tool, with
+# all of them.
 set(COTAN_WEB_SYSTEM "" CACHE PATH "Libraries for WebAssembly: the folder system of scripts/web-libraries")
-list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES COTAN_WEB_SYSTEM)
+option(COTAN_WEB_TOOL "The tool and its libraries, not modules for pages" OFF)
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES COTAN_WEB_SYSTEM COTAN_WEB_TOOL)
 if(COTAN_WEB_SYSTEM)
   list(APPEND CMAKE_FIND_ROOT_PATH ${COTAN_WEB_SYSTEM})
+endif()
+if(COTAN_WEB_TOOL)
   set(CMAKE_EXE_LINKER_FLAGS_INIT -O1) # higher levels need a package of Node.js to make the JavaScript smaller
   set(CMAKE_C_FLAGS_INIT "${flags} -sSUPPORT_LONGJMP=wasm")
   string(PREPEND CMAKE_CXX_FLAGS_INIT "${flags} -sSUPPORT_LONGJMP=wasm -DCOTAN_NPM_TOOL -include ${CMAKE_CURRENT_LIST_DIR}/real_numbers.hpp ")

@@ -27,6 +27,13 @@ COTAN_REFUSES(embree, cotan_pair_names, size_t, const char* const*, size_t, cons
 const char* cotan_name_role(const char*) { return ""; }
 #endif
 
+#ifdef COTAN_WITHOUT_TEXTURES
+static Error textures() { return notBuiltWith("textures", "libfmt-dev, libpng-dev and libjpeg-dev"); }
+
+COTAN_REFUSES(textures, cotan_map_texture, const cotan_image_view*, const cotan_texture_options*, cotan_texture_result*,
+              cotan_bytes**)
+#endif
+
 #ifdef COTAN_WITHOUT_GLTF
 static Error gltf() { return notBuiltWith("glTF", "nlohmann-json3-dev, libfmt-dev, libpng-dev and libjpeg-dev"); }
 

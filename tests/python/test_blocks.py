@@ -5,6 +5,7 @@ import os
 import shutil
 import struct
 import subprocess
+import zlib
 
 import numpy as np
 import pytest
@@ -125,6 +126,39 @@ def test_random_blocks_of_every_format_are_decoded_as_webgl_does(tmp_path):
         assert difference.max() <= tolerance, shares(name, difference, tolerance)
         # Most random blocks of ASTC break its rules, for which all decoders give one colour.
         assert np.ptp(wanted[..., 0]) > 0.5 or name.startswith("astc"), name
+
+
+def png_chunk(kind, content):
+    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+
+
+@pytest.mark.skipif(not CHROMIUM, reason="no chromium here")
+def test_signed_blocks_of_png_files_are_what_webgl_reads_whatever_colour_their_chunks_state(tmp_path, command):
+    """An importer that took such a chunk for the encoding of the values stored a flat texel as -0.56."""
+    x, y = np.meshgrid(np.linspace(-0.7, 0.7, 40), np.linspace(-0.7, 0.7, 32))
+    normals = np.dstack([x, y, np.sqrt(1 - x * x - y * y)])
+    normals[:8, :8] = 0, 0, 1
+    cotan.write_image(tmp_path / "map.png", np.round(128 + 127 * normals).astype(np.uint8))
+    plain = (tmp_path / "map.png").read_bytes()
+    variants = {"none": b"", "srgb": png_chunk(b"sRGB", b"\0"), "gama": png_chunk(b"gAMA", struct.pack(">I", 45455)),
+                "both": png_chunk(b"gAMA", struct.pack(">I", 100000)) + png_chunk(b"sRGB", b"\1")}  # fmt: skip
+    files = {}
+    for name, chunks in variants.items():
+        (tmp_path / f"{name}.png").write_bytes(plain[:33] + chunks + plain[33:])  # after IHDR
+        for ending in ("ktx2", "dds"):
+            file = tmp_path / f"{name}.{ending}"
+            command("map", "convert", tmp_path / f"{name}.png", "--from", "gltf,exact", "--to", "gltf,xy", "--compress", "bc5-snorm", "-o", file)
+            files[name, ending] = file.read_bytes()
+    for (name, ending), data in files.items():
+        assert data == files["none", ending], name
+    vulkan, width, height, blocks = levels(tmp_path / "none.ktx2")
+    assert (vulkan, files["none", "dds"][148:]) == (142, blocks)
+    (read,) = judged([(RGTC, 0x8DBE, width, height, blocks)], tmp_path)
+    assert np.abs(read[:8, :8, :2]).max() == 0  # flat
+    assert np.abs(read[..., :2] - normals[..., :2]).max() < 0.04 and np.abs(read[..., :2] - normals[..., :2]).mean() < 0.005
+    for ending in ("ktx2", "dds"):
+        image = (cotan.read_image(tmp_path / f"none.{ending}")[..., :2] - 32768.0) / 32767
+        assert np.abs(image - read[..., :2]).max() < 1 / 127
 
 
 TOOL = os.environ.get("COTAN_TOOL")

@@ -1,5 +1,6 @@
 """Maps as arrays against the command line on files, to the bit, and against mathematics."""
 
+import json
 import pathlib
 import pickle
 
@@ -194,3 +195,58 @@ def test_missing_and_unwritable_files_raise_errors_of_python_too(tmp_path):
     with pytest.raises(OSError, match="nowhere does not exist") as unwritten:
         cotan.write_image(tmp_path / "nowhere" / "a.png", normal_map())
     assert isinstance(unwritten.value, cotan.OutputError) and str(unwritten.value) == unwritten.value.args[0]
+
+
+WORDS = [  # compress, to, swizzle
+    ("none", "gltf,exact", "auto"), ("bc3", "gltf,xy", "ag"), ("bc5", "gltf", "rg"), ("bc5", "unity,xy,exact", "auto"),
+    ("bc5-snorm", "gltf,xy", "auto"), ("bc7", "directx", "auto"), ("uastc", "gltf", "auto"), ("eac-rg11", "gltf,xy", "auto"),
+    ("astc-4x4", "gltf", "auto"), ("astc-6x6", "gltf,xy", "rrrg"), ("astc-8x8", "opengl,xy", "ag"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("compress, to, swizzle", WORDS)
+def test_textures_have_the_bytes_and_the_degrees_of_the_command_line(compress, to, swizzle, tmp_path, command):
+    given = normal_map(dtype=np.uint16)[:45, :70]  # no whole blocks
+    cotan.write_image(tmp_path / "map.png", given)
+    for container in ("ktx2", "dds") if compress in ("none", "bc3", "bc5", "bc5-snorm", "bc7") else ("ktx2",):
+        for mips in (True, False):
+            file = tmp_path / f"map.{container}"
+            words = ["--from", "gltf,exact", "--to", to, "--compress", compress, "--swizzle", swizzle]
+            command("map", "convert", tmp_path / "map.png", *words, *["--mips"][:mips], "-o", file)
+            made = cotan.map_texture(given, "gltf,exact", to, compress, swizzle, container, mips)
+            assert made.data == file.read_bytes()
+            assert made.levels == (7 if mips else 1)
+            heat = tmp_path / "diff.json"
+            command("map", "diff", tmp_path / "map.png", file, "--from", "gltf,exact", "--to", read_as(to, compress), "--json", heat)
+            degrees = json.loads(heat.read_text())["angles"]
+            assert abs(made.mean_degrees - degrees["mean_degrees"]) < 1e-6 and abs(made.percentile99_degrees - degrees["percentile99_degrees"]) < 1e-6
+            assert 0 < made.mean_degrees < 3
+
+
+def read_as(to, compress):
+    """The convention that `map convert` names for the file."""
+    two = compress in ("bc3", "bc5", "bc5-snorm", "eac-rg11") and "xy" not in to
+    exact = compress == "bc5-snorm" and "exact" not in to
+    return to + (",xy" if two else "") + (",exact" if exact else "")
+
+
+def test_textures_are_refused_in_the_words_of_the_caller():
+    given = normal_map()
+    for wrong, words in (
+        ({"compress": "bc6"}, r"compress: expected one of none, bc3"),
+        ({"compress": "astc-4x4", "container": "dds"}, r"compress: astc-4x4 is for .ktx2 files"),
+        ({"container": "png"}, r"container: expected ktx2 or dds, found 'png'"),
+        ({"compress": "bc7", "to": "gltf,xy"}, r"to: bc7 holds x, y and z"),
+        ({"swizzle": "ra", "compress": "bc5"}, r"swizzle: expected one of auto, rg"),
+        ({"frame": "sideways"}, r"frame: expected one of"),
+        ({"to": "gltf,objectspace"}, r"to: "),
+    ):
+        with pytest.raises(cotan.UsageError, match=words):
+            cotan.map_texture(given, **wrong)
+
+
+def test_a_texture_of_a_file_keeps_the_frame_that_it_is_told(tmp_path, command):
+    cotan.write_image(tmp_path / "map.png", normal_map())
+    made = cotan.map_texture(tmp_path / "map.png", frame="smooth", compress="bc5")
+    assert b"cotanFrame\0smooth\0" in made.data
+    assert b"cotanFrame" not in cotan.map_texture(tmp_path / "map.png", compress="bc5").data

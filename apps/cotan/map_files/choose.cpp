@@ -14,6 +14,8 @@
 
 namespace cotan::app {
 
+using namespace maps;
+
 namespace {
 
 struct Candidate {
@@ -30,6 +32,8 @@ Result<std::vector<Candidate>> candidatesFor(const Convention& to, const std::st
     std::vector<Candidate> candidates;
     std::optional<Error> refused;
     for (const std::string& word : compressionWords()) {
+        if (word == "bc5-snorm") // as exact as bc5, for shaders that expect signed values
+            continue;
         const bool three = word == "bc7" || word == "uastc" || (word.starts_with("astc") && !two);
         const Device family = word.starts_with("bc") ? Device::desktop : word == "uastc" ? Device::web : Device::mobile;
         if (word != "none" && (family != device || (!two && !three)))
@@ -76,7 +80,7 @@ Result<TriedLevel> tryFormat(const std::string& word, const TexelCode& code, con
                              const Convention& read, const Convention& to)
 {
     COTAN_TRY(level, levelOf(texels, code, to));
-    const std::string bytes = ktx2Bytes(code, {*level}, {});
+    const std::string bytes = textureBytes("map.ktx2", code, {*level});
     COTAN_TRY(cost, costOf(map, read, std::as_bytes(std::span(bytes)), storedConvention(code, to)));
     return TriedLevel{{word, bitsPerTexel(code), cost->mean, cost->percentile99}, *std::move(level)};
 }

@@ -7,7 +7,7 @@
 #include "cotan/frame_choice.hpp"
 #include "files/json.hpp"
 #include "map_file.hpp"
-#include "texture_file.hpp"
+#include "maps/textures/texel_code.hpp"
 
 namespace cotan::app {
 
@@ -29,8 +29,8 @@ Json toJson(const TriedFormat& format);
 
 struct ChosenFormat {
     std::string compress; // the word of --compress
-    TexelCode code;
-    TextureLevel level;
+    maps::TexelCode code;
+    maps::TextureLevel level;
     std::vector<TriedFormat> tried; // the smallest first
 };
 

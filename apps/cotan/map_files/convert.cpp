@@ -6,9 +6,10 @@
 
 #include "by_mesh.hpp"
 #include "core/try.hpp"
+#include "files/output.hpp"
 #include "image/format_table.hpp"
+#include "maps/textures/texel_code.hpp"
 #include "stream.hpp"
-#include "texture_file.hpp"
 
 namespace cotan::app {
 
@@ -59,22 +60,29 @@ Result<Image> convertWhole(const std::filesystem::path& file, const RecodeSettin
     return converted;
 }
 
-// Writes a texture with one level.
-Status writeTexture(const std::filesystem::path& out, const Image& map, const TexelCode& code, const Convention& to)
+// Writes a texture. map: in `stored`. first: its largest level.
+Status writeTexture(const std::filesystem::path& out, const Image& map, const Convention& stored, const TexelCode& code,
+                    const ConvertFileOptions& o, TextureLevel first, ConvertedFile& done)
 {
-    COTAN_TRY(level, levelOf(map, code, to));
-    return writeTextureFile(out, code, {*std::move(level)}, map.frame);
+    std::vector<TextureLevel> levels{std::move(first)};
+    if (o.mips)
+        COTAN_CHECK(addMips(map, stored, code, o.to, levels));
+    const std::string bytes = textureBytes(out, code, levels, map.frame);
+    if (code != TexelCode::rgba8)
+        if (const auto cost = costOf(map, stored, std::as_bytes(std::span(bytes)), done.to))
+            done.cost = *cost;
+    return writeFileWhole(out, bytes);
 }
 
 // Writes the texture that fits the budget. map: as chooseFormat takes it.
-Status writeChosen(const std::filesystem::path& out, const Image& map, const ConvertFileOptions& o,
-                   const FileOptions& files, ConvertedFile& done)
+Status writeChosen(const std::filesystem::path& out, const Image& map, const Convention& stored,
+                   const ConvertFileOptions& o, const FileOptions& files, ConvertedFile& done)
 {
     COTAN_TRY(chosen, chooseFormat(map, o.to, o.swizzle, o.dither, out, *o.budget, files));
     done.compress = chosen->compress;
     done.tried = chosen->tried;
     done.to = storedConvention(chosen->code, o.to);
-    return writeTextureFile(out, chosen->code, {std::move(chosen->level)}, map.frame);
+    return writeTexture(out, map, stored, chosen->code, o, std::move(chosen->level), done);
 }
 
 // Image::frame of the result: in tangent space that of the mesh, else that of the map; in object space none.
@@ -126,6 +134,12 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
                                           : usageError(fmt::format("expected a {} file; found '{}'",
                                                                    imageEndings(&ImageFormat::texture, ", ", " or "),
                                                                    out.extension().string())));
+    if (o.mips && !isTextureFile(out))
+        return about(
+            "options.mips",
+            usageError(fmt::format("expected a {} file; found '{}' (map mips writes a file for "
+                                   "each level)",
+                                   imageEndings(&ImageFormat::texture, ", ", " or "), out.extension().string())));
     COTAN_TRY(bits, isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, in.type, o.to, out));
     Convention to = codeConvention(*code, o.to);
     if (o.budget)
@@ -147,13 +161,16 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
               o.mesh ? convertByMesh(map, *o.mesh, settings, files, done) : convertWhole(map, settings, files, done));
     converted->frame = done.frame;
     if (o.budget) {
-        const Status written = writeChosen(out, *converted, o, files, done);
+        const Status written = writeChosen(out, *converted, to, o, files, done);
         return written ? Result<ConvertedFile>(done) : written.error();
     }
-    if (!isTextureFile(out))
-        swizzle(*converted, code->swizzle);
-    const Status written =
-        isTextureFile(out) ? writeTexture(out, *converted, *code, o.to) : writeMap(out, *converted, done.bits);
+    if (isTextureFile(out)) {
+        COTAN_TRY(first, levelOf(*converted, *code, o.to));
+        const Status written = writeTexture(out, *converted, to, *code, o, *std::move(first), done);
+        return written ? Result<ConvertedFile>(done) : written.error();
+    }
+    swizzle(*converted, code->swizzle);
+    const Status written = writeMap(out, *converted, done.bits);
     return written ? Result<ConvertedFile>(done) : written.error();
 }
 

@@ -28,6 +28,7 @@ struct ConvertFileOptions {
     std::string swizzle = "auto";         // a word of swizzleWords
     std::optional<FormatBudget> budget{}; // .dds and .ktx2: chooses the format in place of `compress`
     float strength = 1;                   // factor on the slopes, not 0; negative values turn bumps into dents
+    bool mips = false;                    // .dds and .ktx2: all levels, filtered as vectors
     bool normalise = false;               // three channels to three; if false, lengths are kept
     bool dither = false;                  // adds half a step of noise before rounding
     std::optional<MeshOfMap> mesh{};      // for conversion between tangent and object space only; strength must be 1
@@ -41,10 +42,11 @@ struct ConvertedFile {
     // Image::frame of the result, stored in .png, .exr and .ktx2: that of the map; from object space that of the mesh;
     // to object space none.
     std::string frame = {};
-    Convention from{}, to{};             // how the map was read, and how the result is stored
-    std::string compress = "none";       // the word of the stored format
-    std::vector<TriedFormat> tried = {}; // with a budget
-    std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
+    Convention from{}, to{};                    // how the map was read, and how the result is stored
+    std::string compress = "none";              // the word of the stored format
+    std::optional<maps::TextureCost> cost = {}; // of blocks, if this build can decode them
+    std::vector<TriedFormat> tried = {};        // with a budget
+    std::vector<std::string> notes = {};        // what contradicts a stated convention, one line each
 };
 
 // Converts a file. With a mesh, or to .dds or .ktx2, the map is held in memory. Errors: ErrorKind::usage for options

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/try.hpp"
+#include "maps/textures/texel_code.hpp"
 #include "placed_images.hpp"
-#include "texture_file.hpp"
 
 namespace cotan::app {
 
@@ -43,21 +43,21 @@ Status writeTextures(const std::filesystem::path& out, const std::vector<MipLeve
             COTAN_TRY(both, levelWithRoughness(level, code, o));
             normals.push_back(*std::move(both));
         }
-        return writeTextureFile(out, code, normals, chain[0].normals.frame);
+        return writeFileWhole(out, textureBytes(out, code, normals, chain[0].normals.frame));
     }
     const std::filesystem::path second = marked(out, "_roughness");
     if (o.mayWrite)
         COTAN_CHECK(o.mayWrite(second));
-    const TexelCode grey = code == TexelCode::bc5 || code == TexelCode::bc3 ? TexelCode::bc4
-        : code == TexelCode::rgba8 || code == TexelCode::uastc              ? code.kind
-                                                                            : TexelCode::eacR11;
+    const TexelCode grey = o.compress.starts_with("bc")        ? TexelCode::bc4
+        : code == TexelCode::rgba8 || code == TexelCode::uastc ? code.kind
+                                                               : TexelCode::eacR11;
     for (const MipLevel& level : chain) {
         COTAN_TRY(made, levelOf(level.normals, code, *o.to));
         normals.push_back(*std::move(made));
         roughness.push_back(greyLevel(level.roughness, grey));
     }
-    COTAN_CHECK(writeTextureFile(out, code, normals, chain[0].normals.frame));
-    return writeTextureFile(second, grey, roughness);
+    COTAN_CHECK(writeFileWhole(out, textureBytes(out, code, normals, chain[0].normals.frame)));
+    return writeFileWhole(second, textureBytes(second, grey, roughness));
 }
 
 std::filesystem::path numbered(const std::filesystem::path& file, const char* mark, std::size_t level)

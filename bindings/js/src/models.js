@@ -26,6 +26,8 @@ function withNpmAdvice(error) {
     + "of cotan/gltf-transform, which decompress it with glTF-Transform's decoders") : error;
 }
 
+const kPackings = { libzstd: 'Zstandard', zlib: 'zlib', libastcenc: 'ASTC' }; // what the library's messages name
+
 // Options with defaults filled in and types checked.
 function modelOptions(given, known) {
   const o = options(given, known), refuse = (name, expected) => { throw usage(`options.${name}: expected ${expected}, found ${wordsFor(o[name])}`); };
@@ -72,7 +74,8 @@ export function modelFunctions(library, host, flipGreen) {
     try {
       return isKtx2(bytes) ? decodeKtx2(bytes, name) : decode(bytes, name);
     } catch (error) {
-      throw /not built with/.test(error.message) ? new CotanError('unavailable', `${name}: KTX2 with Zstandard, BC or ASTC is read by the command line, not here`) : error;
+      const lacks = /not built with (\w+)/.exec(error.message)?.[1];
+      throw lacks ? new CotanError('unavailable', `${name}: KTX2 with ${kPackings[lacks] ?? 'BC blocks'} is read by the command line, not here`) : error;
     }
   };
   const decodeImage = async (bytes, name = 'image') => decodeBy(decodeOther, bytesOf(bytes, 'bytes'), name);

@@ -49,12 +49,14 @@ from .maps import (
     Green,
     Level,
     MapInfo,
+    Texture,
     describe,
     detect,
     map_blend,
     map_convert,
     map_from_height,
     map_mips,
+    map_texture,
     map_to_height,
 )
 from .models import Converted, Lint, Model, convert, lint, load

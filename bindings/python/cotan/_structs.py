@@ -53,6 +53,14 @@ class CMapInfo(Struct):
     )
 
 
+class TextureOptions(Struct):
+    _fields_ = _fields((text, "from to compress swizzle container frame"), (integer, "mips"))
+
+
+class TextureResult(Struct):
+    _fields_ = _fields((integer, "levels"), (double, "mean_degrees percentile99_degrees"))
+
+
 class BakeOptions(Struct):
     _fields_ = _fields(
         (text, "frame kind convention"),
@@ -165,6 +173,8 @@ STRUCTS = {
     "cotan_image_view": ImageView,
     "cotan_green": CGreen,
     "cotan_map_info": CMapInfo,
+    "cotan_texture_options": TextureOptions,
+    "cotan_texture_result": TextureResult,
     "cotan_bake_options": BakeOptions,
     "cotan_bake_result": BakeResult,
     "cotan_model_files": ModelFiles,
@@ -200,6 +210,7 @@ _STATUS = {
     "cotan_map_to_height": (ImageView, text, pointer),
     "cotan_map_blend": (ImageView, ImageView, text, text, double, ImageView),
     "cotan_map_mips": (ImageView, text, double, TakeLevel, pointer),
+    "cotan_map_texture": (ImageView, TextureOptions, TextureResult, c.POINTER(handle)),
     "cotan_shader_text": (text, text, text, pointer, size_out),
     "cotan_bake": (CMesh, CMesh, BakeOptions, ImageView, BakeResult),
     "cotan_bake_models": (

@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays as arrays
 from . import _structs as structs
 from ._handles import array_of_view
-from ._library import call
+from ._library import call, taken
 from .images import Path, pixels_of
-from .words import BlendMode, Convention
+from .words import BlendMode, Compress, Container, Convention, Swizzle
 
 Pixels = NDArray[np.generic]
 Map = Union[ArrayLike, Path]
@@ -78,6 +78,23 @@ class Level(NamedTuple):
 
     map: Pixels
     roughness: Pixels
+
+
+@dataclasses.dataclass(frozen=True)
+class Texture:
+    """What `map_texture` makes.
+
+    Attributes:
+        data: the bytes of the file.
+        levels: how many it has.
+        mean_degrees, percentile99_degrees: angles between the map and the largest level as it is read, on average and
+            for 99 % of the texels; None if this build cannot decode the format.
+    """
+
+    data: bytes = dataclasses.field(repr=False)
+    levels: int
+    mean_degrees: Optional[float]
+    percentile99_degrees: Optional[float]
 
 
 def detect(map: Map) -> Green:
@@ -228,3 +245,38 @@ def map_mips(map: Map, convention: Convention = "gltf,exact", roughness: float =
             raise failures[0] from None
         raise
     return levels
+
+
+def map_texture(
+    map: Map,
+    source: Convention = "gltf,exact",
+    to: Optional[Convention] = None,
+    compress: Compress = "none",
+    swizzle: Swizzle = "auto",
+    container: Container = "ktx2",
+    mips: bool = True,
+    frame: Optional[str] = None,
+) -> Texture:
+    """A texture for GPUs: the file that `cotan map convert` writes with the same words, byte for byte.
+
+    Args:
+        map: an image.
+        source, to: conventions of the map and of the texture. Default of to: source.
+        compress: the format of the blocks; "none" stores pixels of 8 bits.
+        swizzle: where a map of two channels has x and y; "auto": where engines expect them.
+        container: "ktx2" or "dds", which has BC formats and pixels only.
+        mips: all levels to 1 x 1, filtered as vectors; False: the largest only.
+        frame: the frame that the map was made for, which KTX2 stores.
+    """
+    pixels = pixels_of(map)
+    arrays.stored(pixels, source, "map")
+    words = {"from": source, "to": source if to is None else to, "compress": compress, "swizzle": swizzle,
+             "container": container}  # fmt: skip
+    words = {name: arrays.encoded(word, "source" if name == "from" else name) for name, word in words.items()}
+    options = structs.TextureOptions(
+        **words, frame=None if frame is None else arrays.encoded(frame, "frame"), mips=int(bool(mips))
+    )
+    made, result = structs.handle(), structs.TextureResult()
+    call("cotan_map_texture", arrays.image_view(pixels), options, result, made)
+    degrees = [None if d < 0 else d for d in (result.mean_degrees, result.percentile99_degrees)]
+    return Texture(taken(made), result.levels, *degrees)

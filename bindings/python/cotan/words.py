@@ -46,6 +46,12 @@ Search = Literal["first", "nearest"]
 Rays = Literal["auto", "averaged", "straight", "vertex-color"]
 Occluders = Literal["matched", "all"]
 BlendMode = Literal["reoriented", "whiteout", "udn", "slopes", "linear"]
+Compress = Literal[
+    "none", "bc3", "bc5", "bc5-snorm", "bc7", "uastc", "eac-rg11",
+    "astc-4x4", "astc-5x4", "astc-5x5", "astc-6x5", "astc-6x6", "astc-8x5", "astc-8x6", "astc-8x8",
+]  # fmt: skip
+Swizzle = Literal["auto", "rg", "ra", "ag", "rrrg"]
+Container = Literal["ktx2", "dds"]
 TangentKind = Literal["mikktspace", "area-weighted", "vertex"]
 TangentOrigin = Literal["stored", "generated"]
 Expansion = Literal["biased", "exact"]

@@ -256,6 +256,31 @@ typedef int (*cotan_take_level)(void* user, int level, const cotan_image_view* m
 cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention, double roughness,
                             cotan_take_level take, void* user, char* message, size_t message_size);
 
+typedef struct cotan_texture_options {
+    size_t size;
+    const char* from;      /* convention of the map; null: "gltf,exact" */
+    const char* to;        /* convention of the texture; null: as `from`. Formats of two channels hold its x and y */
+    const char* compress;  /* as --compress of `cotan map convert`: "bc5", "uastc", "astc-6x6", ...; null: "none" */
+    const char* swizzle;   /* as --swizzle: where two channels are; null: "auto" */
+    const char* container; /* "ktx2" or "dds"; null: "ktx2" */
+    const char* frame;     /* for which the map was made, which KTX2 stores; null: not stored */
+    int mips;              /* not 0: all levels to 1 x 1, filtered as vectors; 0: the largest level only */
+} cotan_texture_options;
+
+/* Degrees between the map and the largest level as it is read. -1: this build cannot decode the format, as npm's cannot
+ * decode BC. */
+typedef struct cotan_texture_result {
+    size_t size;
+    int levels;
+    double mean_degrees, percentile99_degrees; /* 99 % of the texels are within the second */
+} cotan_texture_result;
+
+/* Makes the file that `cotan map convert` writes with the same words (and --mips), byte for byte. Two channels of the
+ * map may be anywhere: they are found. result may be null. The caller frees the bytes. COTAN_UNAVAILABLE: this build
+ * has no encoder (ASTC). Since version 9. */
+cotan_status cotan_map_texture(const cotan_image_view* map, const cotan_texture_options* options,
+                               cotan_texture_result* result, cotan_bytes** texture, char* message, size_t message_size);
+
 /* ---- shader text ------------------------------------------------------------------------------------------------- */
 
 /* Returns the self-contained function that perturbs the normal with a frame, with a terminating zero. `language`: a

@@ -3,6 +3,8 @@ import * as cotan from 'cotan';
 import * as beside from 'cotan/beside';
 import * as small from 'cotan/tangents';
 import * as smallBeside from 'cotan/tangents/beside';
+import * as textures from 'cotan/textures';
+import * as texturesBeside from 'cotan/textures/beside';
 import { frames, lintNormals, provoking, tangents, untangent } from 'cotan/gltf-transform';
 import { CotanError as ThreeError, replaceFrame, untangle, untangled, type Candidate, type Decision, type Frame, type LoadedModel, type UntangleOptions } from 'cotan/three';
 import { addRelief, type ReliefOptions, type WithRelief } from 'cotan/three/relief';
@@ -35,6 +37,8 @@ const read: cotan.Image & { bits: number } = await cotan.decodeImage(new Uint8Ar
 const file: Uint8Array = await cotan.encodePng(read);
 const green: 'up' | 'down' | 'unknown' = cotan.detect(picture).green;
 const zero: 127 | 128 | null = cotan.info(picture).zero;
+const made: { bytes: Uint8Array; levels: number } = textures.texture(picture, { from: 'gltf', to: 'gltf,xy', compress: 'eac-rg11', mips: false });
+const lost: number | undefined = texturesBeside.texture(picture, { compress: 'uastc', container: 'ktx2', swizzle: 'auto' }).degrees?.mean;
 const bits: cotan.Bits = 16, convention: cotan.Convention = 'unity,xyz';
 const other: cotan.Image = cotan.convertMap(picture, { from: convention, to: 'gltf', bits });
 const blended: cotan.Image = cotan.blend(picture, other, { mode: 'whiteout', strength: 0.5 });

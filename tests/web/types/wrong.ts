@@ -1,6 +1,7 @@
 // Every line after the imports is wrong, and the compiler has to say so of each: see types_test.mjs.
 import * as cotan from 'cotan';
 import { tangents } from 'cotan/tangents';
+import { texture } from 'cotan/textures';
 import { untangent } from 'cotan/gltf-transform';
 import { untangle } from 'cotan/three';
 import { Untangled, useUntangled } from 'cotan/react';
@@ -12,6 +13,7 @@ tangents({ positions: [0, 0, 0], normals: [0, 0, 1] });
 tangents({ positions: [0, 0, 0], normals: [0, 0, 1], uvs: [0, 0] }, { kind: 'smooth' });
 const words: Int16Array = cotan.packSmooth([0, 0, 1], [1, 0, 0], [0, 1, 0], { bytes: 4 });
 cotan.shader({ language: 'basic' });
+texture({ width: 1, height: 1, data: new Uint8Array(4) }, { compress: 'astc-4x4' });
 cotan.shader({ frame: 'triangle', stage: 'pixel' });
 cotan.shader({ lang: 'wgsl' });
 cotan.detect({ width: 1, height: 1, data: [128, 128, 255, 255] });

@@ -5,7 +5,7 @@
 
 #include "bc7_values.hpp"
 
-namespace cotan::app::bc7 {
+namespace cotan::maps::bc7 {
 
 namespace {
 
@@ -295,4 +295,4 @@ Fit fitAlpha(const Texels& t, int bits, int indexBits)
     return best;
 }
 
-} // namespace cotan::app::bc7
+} // namespace cotan::maps::bc7

@@ -1,6 +1,6 @@
 // BC7 encoder for normal maps. Candidates, a mode and a partition each, are ordered by an estimate; the best are
 // fitted, and the best of these refined.
-#include "block.hpp"
+#include "maps/blocks/block.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "bc7_layout.hpp"
 #include "block_texels.hpp"
 
-namespace cotan::app {
+namespace cotan::maps {
 
 namespace bc7 {
 
@@ -408,4 +408,4 @@ std::vector<std::byte> encodeBc7(const Image& map, const CodeScale& scale, bool 
     });
 }
 
-} // namespace cotan::app
+} // namespace cotan::maps

@@ -7,7 +7,7 @@
 
 #include "block_texels.hpp"
 
-namespace cotan::app::uastc {
+namespace cotan::maps::uastc {
 
 Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale, bool lengths)
 {
@@ -289,4 +289,4 @@ Block bestBlock(const Texels& t)
     return *std::ranges::min_element(blocks, {}, &Block::error);
 }
 
-} // namespace cotan::app::uastc
+} // namespace cotan::maps::uastc

@@ -5,7 +5,7 @@
 
 #include "block_texels.hpp"
 
-namespace cotan::app::bc7 {
+namespace cotan::maps::bc7 {
 
 const std::array<std::uint16_t, 64> kTwoSubsets{
     0xcccc, 0x8888, 0xeeee, 0xecc8, 0xc880, 0xfeec, 0xfec8, 0xec80, 0xc800, 0xffec, 0xfe80, 0xe800, 0xffe8,
@@ -97,4 +97,4 @@ void write(Block block, std::byte* to)
         bits.put(block.second[i], mode.secondBits - (mode.secondBits > 0 && i == 0));
 }
 
-} // namespace cotan::app::bc7
+} // namespace cotan::maps::bc7

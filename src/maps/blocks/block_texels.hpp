@@ -19,7 +19,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
-namespace cotan::app {
+namespace cotan::maps {
 
 // Sixteen texels as four vectors, since compilers do not vectorise strict float sums. The order of the sums is fixed,
 // so the bytes are the same on all machines.
@@ -190,4 +190,4 @@ template<class Encode> std::vector<std::byte> encodeBlocks(const Image& map, std
     return blocks;
 }
 
-} // namespace cotan::app
+} // namespace cotan::maps

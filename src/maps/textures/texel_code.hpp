@@ -1,6 +1,7 @@
 // GPU textures with all their levels, in DDS and KTX 2.0.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -10,17 +11,16 @@
 #include "cotan/maps.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
-#include "inspect/angles.hpp"
 
-namespace cotan::app {
+namespace cotan::maps {
 
 // How texels are stored: pixels, or blocks.
 struct TexelCode {
-    enum Kind { rgba8, bc3, bc5, bc7, bc4, eacRg11, eacR11, astc, uastc };
+    enum Kind { rgba8, bc3, bc5, bc5Signed, bc7, bc4, eacRg11, eacR11, astc, uastc };
     Kind kind = rgba8;
-    int width = 4, height = 4;                 // texels of a block
-    bool two = false;                          // x and y only
-    maps::Swizzle swizzle = maps::Swizzle::rg; // where these are
+    int width = 4, height = 4;     // texels of a block
+    bool two = false;              // x and y only
+    Swizzle swizzle = Swizzle::rg; // where these are
 
     constexpr TexelCode(Kind k = rgba8) : kind(k) {} // NOLINT(google-explicit-constructor)
     constexpr TexelCode(int w, int h) : kind(astc), width(w), height(h) {}
@@ -28,13 +28,17 @@ struct TexelCode {
 
     bool twoChannels() const
     {
-        return kind == bc3 || kind == bc5 || kind == eacRg11 || (two && (kind == astc || swizzle != maps::Swizzle::rg));
+        return kind == bc3 || kind == bc5 || kind == bc5Signed || kind == eacRg11
+            || (two && (kind == astc || swizzle != Swizzle::rg));
     }
     // Whether alpha is free for the roughness, which else has a file of its own.
     bool holdsRoughness() const { return !twoChannels() && kind != uastc; }
 };
 
-// The words of --compress: none, bc3, bc5, bc7, uastc, eac-rg11, astc-4x4 to astc-8x8.
+// Of ASTC, in the order of their VkFormats from 157 on, which alternate with those of sRGB.
+inline constexpr std::array<TexelCode, 8> kAstcSizes{{{4, 4}, {5, 4}, {5, 5}, {6, 5}, {6, 6}, {8, 5}, {8, 6}, {8, 8}}};
+
+// The words of --compress: none, bc3, bc5, bc5-snorm, bc7, uastc, eac-rg11, astc-4x4 to astc-8x8.
 std::vector<std::string> compressionWords();
 
 // The words of --swizzle: auto, rg, ra, ag, rrrg.
@@ -51,23 +55,30 @@ struct TextureLevel {
 // Whether the file's extension is that of a texture format.
 bool isTextureFile(const std::filesystem::path& file);
 
-// Writes a texture. levels: the largest first, each half as large as the one before. frame: Image::frame, which only
-// KTX2 stores. Errors: as writeFileWhole.
-Status writeTextureFile(const std::filesystem::path& file, const TexelCode& code,
-                        const std::vector<TextureLevel>& levels, const std::string& frame = {});
-
-// The same as bytes of KTX2.
-std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& levels, const std::string& frame);
+// The bytes of a file. levels: the largest first, each half as large as the one before. frame: Image::frame, which only
+// KTX2 stores.
+std::string textureBytes(const std::filesystem::path& file, const TexelCode& code,
+                         const std::vector<TextureLevel>& levels, const std::string& frame = {});
 
 // Normals as a level of a texture that is read as `to`. image: in codeConvention; unorm8 for rgba8, else float32.
 // lengths: for bc7 and uastc, keeps the lengths of vectors. Errors: ErrorKind::unavailable for ASTC in a build without
 // it.
 Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Convention& to, bool lengths = false);
 
-// The angles between a map and what a reader finds in the first level of a KTX2, each read in its own convention.
+// Appends the smaller levels, to 1 x 1, filtered as vectors; alpha is averaged. map: as for levelOf. stored: its
+// convention. Errors: as levelOf.
+Status addMips(const Image& map, const Convention& stored, const TexelCode& code, const Convention& to,
+               std::vector<TextureLevel>& levels);
+
+// Degrees between a map and its texture. NaN if no texel has a direction.
+struct TextureCost {
+    double mean = 0, percentile99 = 0;
+};
+
+// The angles between a map and what a reader finds in the first level of a texture, each read in its own convention.
 // Errors: as decodeImage.
-Result<AngleStatistics> costOf(const Image& map, const Convention& convention, std::span<const std::byte> texture,
-                               const Convention& stored);
+Result<TextureCost> costOf(const Image& map, const Convention& convention, std::span<const std::byte> texture,
+                           const Convention& stored);
 
 // Red as a level of one channel: bc4, eacR11 or uastc (grey) of float32, or an image of unorm8 for rgba8.
 TextureLevel greyLevel(const Image& image, const TexelCode& code);
@@ -84,4 +95,4 @@ Convention codeConvention(const TexelCode& code, const Convention& to);
 // The convention that the written file has.
 Convention storedConvention(const TexelCode& code, const Convention& to);
 
-} // namespace cotan::app
+} // namespace cotan::maps

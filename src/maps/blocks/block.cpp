@@ -1,4 +1,4 @@
-#include "block.hpp"
+#include "maps/blocks/block.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "block_texels.hpp"
 
-namespace cotan::app {
+namespace cotan::maps {
 
 namespace {
 
@@ -253,11 +253,14 @@ void refineTogether(const NormalTexels& t, Ends& x, Ends& y)
     y = moved(y, leastOf(errors));
 }
 
-void encodeNormals(const NormalTexels& t, std::byte* to)
+// most: the highest code of an end.
+void encodeNormals(const NormalTexels& t, int most, std::byte* to)
 {
     Ends x = fit(t.x, t.weightX), y = fit(t.y, t.weightY);
     if (steep(t))
         refineTogether(t, x, y);
+    for (Ends* ends : {&x, &y})
+        *ends = {std::min(ends->high, most), std::min(ends->low, most - 1)};
     Values positionsX{}, positionsY{};
     runLanes(ChoosePositions{t, x, y, positionsX, positionsY});
     put(x, positionsX, to);
@@ -277,8 +280,19 @@ void encodeAlpha(const Values& values, const Values& weights, std::byte* to)
 
 std::vector<std::byte> encodeBc5(const Image& map, const CodeScale& scale)
 {
-    return encodeBlocks(
-        map, 16, [&](int left, int top, std::byte* to) { encodeNormals(normalTexels(map, left, top, scale), to); });
+    return encodeBlocks(map, 16, [&](int left, int top, std::byte* to) {
+        encodeNormals(normalTexels(map, left, top, scale), 255, to);
+    });
+}
+
+std::vector<std::byte> encodeBc5Signed(const Image& map)
+{
+    constexpr int kZeroCode = 127, kMost = 254;
+    return encodeBlocks(map, 16, [&](int left, int top, std::byte* to) {
+        encodeNormals(normalTexels(map, left, top, {kZeroCode, kZeroCode}, kMost), kMost, to);
+        for (std::size_t end : {0u, 1u, 8u, 9u})
+            to[end] = std::byte((std::to_integer<int>(to[end]) - kZeroCode) & 0xff);
+    });
 }
 
 std::vector<std::byte> encodeBc4(const Image& image)
@@ -292,4 +306,4 @@ std::vector<std::byte> encodeBc4(const Image& image)
     });
 }
 
-} // namespace cotan::app
+} // namespace cotan::maps

@@ -7,7 +7,7 @@
 
 #include "cotan/scene.hpp"
 
-namespace cotan::app {
+namespace cotan::maps {
 
 // A code c of 0 to 255 is decoded to (c - zero) / unit.
 struct CodeScale {
@@ -18,6 +18,9 @@ struct CodeScale {
 // Minimises decoded angles, not code differences. map: float32; red and green are (x + 1) / 2 and (y + 1) / 2. The
 // bytes do not depend on the number of threads.
 std::vector<std::byte> encodeBc5(const Image& map, const CodeScale& scale);
+
+// The same as BC5_SNORM, whose codes -127 to 127 are -1 to 1: one scale, and an exact zero.
+std::vector<std::byte> encodeBc5Signed(const Image& map);
 
 // Encodes x, y and z of unit vectors, and alpha, as BC7: 16 bytes per block, all modes but 2. Minimises errors of
 // angles and alpha or, with `lengths`, of vectors and alpha. map: float32; red, green and blue are (n + 1) / 2. Blocks
@@ -41,4 +44,4 @@ std::vector<std::byte> encodeEacR11(const Image& image);
 // Encodes red, 0 to 1, as BC4: 8 bytes per block, least squares. image: float32.
 std::vector<std::byte> encodeBc4(const Image& image);
 
-} // namespace cotan::app
+} // namespace cotan::maps

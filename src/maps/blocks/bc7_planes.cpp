@@ -6,7 +6,7 @@
 
 #include "bc7_values.hpp"
 
-namespace cotan::app::bc7 {
+namespace cotan::maps::bc7 {
 
 namespace {
 
@@ -137,4 +137,4 @@ void refinePlanes(PlanesFit& fit, const Texels& t, const PlanesCode& code, int r
     }
 }
 
-} // namespace cotan::app::bc7
+} // namespace cotan::maps::bc7

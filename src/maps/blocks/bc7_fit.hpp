@@ -7,7 +7,7 @@
 #include "bc7_layout.hpp"
 #include "block_texels.hpp"
 
-namespace cotan::app::bc7 {
+namespace cotan::maps::bc7 {
 
 // The texels of a block.
 struct Texels {
@@ -73,4 +73,4 @@ void refinePlanes(PlanesFit& fit, const Texels& t, const PlanesCode& code, int r
 // Fits alpha by itself: its ends are those of channel 3.
 Fit fitAlpha(const Texels& t, int bits, int indexBits);
 
-} // namespace cotan::app::bc7
+} // namespace cotan::maps::bc7

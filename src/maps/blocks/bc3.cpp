@@ -6,7 +6,7 @@
 #include "block.hpp"
 #include "block_texels.hpp"
 
-namespace cotan::app {
+namespace cotan::maps {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::vector<std::byte> encodeBc3(const Image& map, const CodeScale& scale)
     });
 }
 
-} // namespace cotan::app
+} // namespace cotan::maps

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace cotan::app::bc7 {
+namespace cotan::maps::bc7 {
 
 // What the fields of a mode hold. All counts of bits.
 struct Mode {
@@ -48,4 +48,4 @@ struct Block {
 
 void write(Block block, std::byte* to);
 
-} // namespace cotan::app::bc7
+} // namespace cotan::maps::bc7

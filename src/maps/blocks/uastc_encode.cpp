@@ -17,7 +17,7 @@
 #include "image/uastc_modes.hpp"
 #include "uastc_fit.hpp"
 
-namespace cotan::app {
+namespace cotan::maps {
 
 namespace uastc {
 
@@ -194,4 +194,4 @@ std::vector<std::byte> encodeUastc(const Image& map, const CodeScale& scale, boo
         map, 16, [&](int left, int top, std::byte* to) { uastc::encodeBlock(map, left, top, scale, lengths, to); });
 }
 
-} // namespace cotan::app
+} // namespace cotan::maps

@@ -8,7 +8,7 @@
 #include "block_texels.hpp"
 #include "image/etc.hpp"
 
-namespace cotan::app {
+namespace cotan::maps {
 
 namespace {
 
@@ -240,4 +240,4 @@ std::vector<std::byte> encodeEacR11(const Image& image)
     });
 }
 
-} // namespace cotan::app
+} // namespace cotan::maps

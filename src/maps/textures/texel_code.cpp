@@ -1,70 +1,30 @@
-#include "texture_file.hpp"
+#include "maps/textures/texel_code.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <cstring>
-#include <iterator>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "block.hpp"
 #include "core/try.hpp"
+#include "core/value_statistics.hpp"
 #include "cotan/image.hpp"
-#include "files/output.hpp"
 #include "image/astc.hpp"
-#include "image/checks.hpp"
-#include "image/codecs.hpp"
-#include "image/dds.hpp"
 #include "image/format_table.hpp"
+#include "maps/blocks/block.hpp"
 #include "maps/texels.hpp"
 
-namespace cotan::app {
-
-using maps::Swizzle;
+namespace cotan::maps {
 
 namespace {
-
-// Codes of a format in the two containers.
-struct CodeFacts {
-    std::uint32_t dxgi, vulkan; // DXGI_FORMAT, VkFormat
-    std::uint32_t bytes;        // per pixel or block
-    std::uint32_t model;        // of the Khronos Data Format: KHR_DF_MODEL_...
-    std::vector<std::uint32_t> channels;
-};
-
-// Of ASTC, in the order of their VkFormats from 157 on, which alternate with those of sRGB.
-constexpr std::array<TexelCode, 8> kAstc{{{4, 4}, {5, 4}, {5, 5}, {6, 5}, {6, 6}, {8, 5}, {8, 6}, {8, 8}}};
-
-CodeFacts factsOf(const TexelCode& code)
-{
-    switch (code.kind) {
-    case TexelCode::bc5: return {83, 141, 16, 132, {0, 1}};
-    case TexelCode::bc7: return {98, 145, 16, 134, {0}};
-    case TexelCode::bc3: return {77, 137, 16, 130, {15, 0}};
-    case TexelCode::uastc: return {0, 0, 16, 166, {0}};
-    case TexelCode::bc4: return {80, 139, 8, 131, {0}};
-    case TexelCode::eacRg11: return {0, 155, 16, 161, {0, 1}};
-    case TexelCode::eacR11: return {0, 153, 8, 161, {0}};
-    case TexelCode::astc:
-        for (std::uint32_t i = 0; i < kAstc.size(); ++i)
-            if (kAstc[i].width == code.width && kAstc[i].height == code.height)
-                return {0, 157 + 2 * i, 16, 162, {0}};
-        break;
-    case TexelCode::rgba8: break;
-    }
-    return {0, 37, 4, 1, {0, 1, 2, 15}};
-}
 
 std::string astcWord(const TexelCode& code) { return fmt::format("astc-{}x{}", code.width, code.height); }
 
 constexpr std::pair<const char*, TexelCode::Kind> kCodes[] = {
-    {"none", TexelCode::rgba8}, {"bc3", TexelCode::bc3},     {"bc5", TexelCode::bc5},
-    {"bc7", TexelCode::bc7},    {"uastc", TexelCode::uastc}, {"eac-rg11", TexelCode::eacRg11}};
+    {"none", TexelCode::rgba8},          {"bc3", TexelCode::bc3}, {"bc5", TexelCode::bc5},
+    {"bc5-snorm", TexelCode::bc5Signed}, {"bc7", TexelCode::bc7}, {"uastc", TexelCode::uastc},
+    {"eac-rg11", TexelCode::eacRg11}};
 
 // The words of --swizzle besides auto; rrrg is another name of ra.
 constexpr std::pair<const char*, Swizzle> kSwizzles[] = {
@@ -102,64 +62,10 @@ std::optional<TexelCode> codeNamed(const std::string& word)
     for (const auto& [name, kind] : kCodes)
         if (word == name)
             return kind;
-    for (const TexelCode& code : kAstc)
+    for (const TexelCode& code : kAstcSizes)
         if (word == astcWord(code))
             return code;
     return std::nullopt;
-}
-
-void append(std::string& bytes, const std::vector<std::byte>& more)
-{
-    bytes.append(reinterpret_cast<const char*>(more.data()), more.size());
-}
-
-void appendNumber(std::string& bytes, std::uint64_t number, int size)
-{
-    for (int i = 0; i < size; ++i)
-        bytes += char(number >> 8 * i & 0xff);
-}
-
-std::string ddsBytes(const TexelCode& code, const std::vector<TextureLevel>& levels)
-{
-    const CodeFacts facts = factsOf(code);
-    DdsCode stored;
-    if (code == TexelCode::bc3) // every reader knows its old name
-        stored = {"DXT5", 0, facts.bytes};
-    else if (code != TexelCode::rgba8)
-        stored = {"DX10", facts.dxgi, facts.bytes};
-    std::string bytes;
-    append(bytes, ddsHeader(stored, levels[0].width, levels[0].height, levels.size()));
-    for (const TextureLevel& level : levels)
-        append(bytes, level.texels);
-    return bytes;
-}
-
-// The basic data format descriptor of the Khronos Data Format 1.3: linear values, one sample per channel.
-std::string descriptor(const TexelCode& code, const CodeFacts& facts)
-{
-    const bool blocks = code != TexelCode::rgba8;
-    const std::size_t size = 24 + 16 * facts.channels.size();
-    std::string d;
-    appendNumber(d, size + 4, 4);
-    appendNumber(d, 0, 4); // vendor Khronos, type basic
-    appendNumber(d, 2, 2); // version 1.3
-    appendNumber(d, size, 2);
-    appendNumber(d, facts.model, 1);
-    appendNumber(d, 1, 1); // BT.709 primaries
-    appendNumber(d, 1, 1); // linear transfer function
-    appendNumber(d, 0, 1);
-    const auto block = std::uint64_t(code.width - 1) | std::uint64_t(code.height - 1) << 8;
-    appendNumber(d, blocks ? block : 0, 4); // size of a block minus one
-    appendNumber(d, facts.bytes, 8);        // bytes of the first plane
-    const std::size_t bits = facts.bytes * 8 / facts.channels.size();
-    for (std::size_t i = 0; i < facts.channels.size(); ++i) {
-        appendNumber(d, i * bits, 2);
-        appendNumber(d, bits - 1, 1);
-        appendNumber(d, facts.channels[i], 1);
-        appendNumber(d, 0, 8); // sample position, lowest value
-        appendNumber(d, blocks ? 0xffffffff : 255, 4);
-    }
-    return d;
 }
 
 // The scale by which a shader decodes codes: see Expansion.
@@ -186,6 +92,25 @@ Image scaled(Image image, const CodeScale& scale)
     return image;
 }
 
+// Sets alpha to that of an image of twice the size.
+void averageAlpha(const Image& larger, Image& level)
+{
+    const int across = std::min(larger.width, 2), down = std::min(larger.height, 2);
+    std::vector<glm::vec4> row(std::size_t(larger.width)), to(std::size_t(level.width));
+    for (int y = 0; y < level.height; ++y) {
+        loadRow(level, y, to);
+        for (glm::vec4& texel : to)
+            texel.w = 0;
+        for (int k = 0; k < down; ++k) {
+            loadRow(larger, 2 * y + k, row);
+            for (std::size_t x = 0; x < to.size(); ++x)
+                for (std::size_t i = 0; i < std::size_t(across); ++i)
+                    to[x].w += row[2 * x + i].w / float(across * down);
+        }
+        storeRow(level, y, to);
+    }
+}
+
 } // namespace
 
 bool isTextureFile(const std::filesystem::path& file) { return imageFormatHas(file, &ImageFormat::texture); }
@@ -195,7 +120,7 @@ std::vector<std::string> compressionWords()
     std::vector<std::string> words;
     for (const auto& [name, kind] : kCodes)
         words.emplace_back(name);
-    for (const TexelCode& code : kAstc)
+    for (const TexelCode& code : kAstcSizes)
         words.push_back(astcWord(code));
     return words;
 }
@@ -210,65 +135,8 @@ std::vector<std::string> swizzleWords()
 
 double bitsPerTexel(const TexelCode& code)
 {
-    return 8.0 * factsOf(code).bytes / (code == TexelCode::rgba8 ? 1 : code.width * code.height);
-}
-
-// Header, level index, descriptor, keys, and the levels, smallest first.
-std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& levels, const std::string& frame)
-{
-    const CodeFacts facts = factsOf(code);
-    std::string dataFormat = descriptor(code, facts), keys;
-    std::vector<std::string> entries = {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)};
-    if (code.swizzle != Swizzle::rg) // where a reader finds x and y
-        entries.insert(entries.begin() + 1,
-                       std::string(code.swizzle == Swizzle::greyAlpha ? "KTXswizzle\0ra01" : "KTXswizzle\0ag01", 16));
-    if (!frame.empty()) // last, since keys are sorted; null-terminated like the others
-        entries.push_back(std::string(kFrameKey) + '\0' + frame + '\0');
-    for (const std::string& entry : entries) {
-        appendNumber(keys, entry.size(), 4);
-        keys += entry + std::string((4 - entry.size() % 4) % 4, '\0');
-    }
-    const std::size_t descriptorAt = 80 + 24 * levels.size(), keysAt = descriptorAt + dataFormat.size();
-    std::string data(keysAt + keys.size(), '\0'); // precedes the levels; filled at the end
-    // UASTC is packed as its own encoder does; other blocks are for engines that may not unpack them.
-    std::vector<std::vector<std::byte>> packed;
-    for (std::size_t i = 0; code == TexelCode::uastc && i < levels.size(); ++i)
-        packed.push_back(packZstd(levels[i].texels));
-    const bool packs = !packed.empty() && std::ranges::none_of(packed, &std::vector<std::byte>::empty);
-    const auto stored = [&](std::size_t i) -> const std::vector<std::byte>& {
-        return packs ? packed[i] : levels[i].texels;
-    };
-    std::vector<std::size_t> offsets(levels.size());
-    for (std::size_t i = levels.size(); i-- > 0;) {
-        if (!packs)
-            data.resize((data.size() + facts.bytes - 1) / facts.bytes * facts.bytes, '\0');
-        offsets[i] = data.size();
-        append(data, stored(i));
-    }
-    std::string head = "\xabKTX 20\xbb\r\n\x1a\n";
-    for (const std::uint64_t number :
-         {std::uint64_t(facts.vulkan), std::uint64_t(1), std::uint64_t(levels[0].width),
-          std::uint64_t(levels[0].height), std::uint64_t(0), std::uint64_t(0), std::uint64_t(1),
-          std::uint64_t(levels.size()), std::uint64_t(packs ? 2 : 0), std::uint64_t(descriptorAt),
-          std::uint64_t(dataFormat.size()), std::uint64_t(keysAt), std::uint64_t(keys.size())})
-        appendNumber(head, number, 4);
-    appendNumber(head, 0, 8);
-    appendNumber(head, 0, 8);
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        appendNumber(head, offsets[i], 8);
-        appendNumber(head, stored(i).size(), 8);
-        appendNumber(head, levels[i].texels.size(), 8);
-    }
-    head += dataFormat + keys;
-    std::ranges::copy(head, data.begin());
-    return data;
-}
-
-Status writeTextureFile(const std::filesystem::path& file, const TexelCode& code,
-                        const std::vector<TextureLevel>& levels, const std::string& frame)
-{
-    const bool dds = imageFormatOf(file)->name == "DDS";
-    return writeFileWhole(file, dds ? ddsBytes(code, levels) : ktx2Bytes(code, levels, frame));
+    const bool eight = code == TexelCode::bc4 || code == TexelCode::eacR11;
+    return code == TexelCode::rgba8 ? 32 : (eight ? 64.0 : 128.0) / (code.width * code.height);
 }
 
 Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Convention& to, bool lengths)
@@ -276,6 +144,8 @@ Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Co
     TextureLevel level{image.width, image.height, {}};
     if (code == TexelCode::bc5)
         level.texels = encodeBc5(image, scaleOf(to.expansion));
+    else if (code == TexelCode::bc5Signed)
+        level.texels = encodeBc5Signed(image);
     else if (code == TexelCode::bc7)
         level.texels = encodeBc7(image, scaleOf(to.expansion), lengths);
     else if (code == TexelCode::uastc)
@@ -300,14 +170,34 @@ Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Co
     return level;
 }
 
-Result<AngleStatistics> costOf(const Image& map, const Convention& convention, std::span<const std::byte> texture,
-                               const Convention& stored)
+Status addMips(const Image& map, const Convention& stored, const TexelCode& code, const Convention& to,
+               std::vector<TextureLevel>& levels)
+{
+    const PixelType type = code == TexelCode::rgba8 ? PixelType::unorm8 : PixelType::float32;
+    const auto chain = mipChain(map, {.from = stored, .to = codeConvention(code, to), .type = type});
+    Image larger = map;
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+        Image level = chain[i].normals;
+        if (code.holdsRoughness())
+            averageAlpha(larger, level);
+        COTAN_TRY(made, levelOf(level, code, to));
+        levels.push_back(*std::move(made));
+        larger = std::move(level);
+    }
+    return Done{};
+}
+
+Result<TextureCost> costOf(const Image& map, const Convention& convention, std::span<const std::byte> texture,
+                           const Convention& stored)
 {
     COTAN_TRY(read, decodeImage(texture, "the texture"));
-    AngleCounter angles;
-    for (const float degrees : maps::anglesBetween(map, convention, *read, stored))
-        angles.add(degrees);
-    return angles.statistics();
+    if (stored.channels != Channels::xyz)
+        unswizzle(*read, swizzleOf(*read));
+    ValueStatistics angles;
+    for (const float degrees : anglesBetween(map, convention, *read, stored))
+        if (degrees >= 0)
+            angles.add(double(degrees));
+    return TextureCost{angles.mean(), angles.percentile(0.99)};
 }
 
 TextureLevel greyLevel(const Image& image, const TexelCode& code)
@@ -361,7 +251,7 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
                                             "xy has two); found '{}'",
                                             swizzle)));
     }
-    if (isTextureFile(file) && to.expansion == Expansion::signedValues)
+    if (isTextureFile(file) && to.expansion == Expansion::signedValues && *code != TexelCode::bc5Signed)
         return about("options.to",
                      usageError(fmt::format("signed values need a {} of floats",
                                             imageEndings(&ImageFormat::negative, ", ", " or "))));
@@ -381,7 +271,9 @@ Convention storedConvention(const TexelCode& code, const Convention& to)
     Convention stored = to;
     if (code.twoChannels() && to.channels == Channels::xyz)
         stored.channels = Channels::orthographic;
+    if (code == TexelCode::bc5Signed) // a reader that carries it in unsigned components has this zero
+        stored.expansion = Expansion::exact;
     return stored;
 }
 
-} // namespace cotan::app
+} // namespace cotan::maps

@@ -5,7 +5,7 @@
 
 #include "block_texels.hpp"
 
-namespace cotan::app::bc7 {
+namespace cotan::maps::bc7 {
 
 inline constexpr int kRounds = 2; // of least squares
 
@@ -85,4 +85,4 @@ struct LeastSquares {
 // By how much the vector to v may be longer until a code leaves its range.
 inline float growthOf(float v, float zero) { return v > 0 ? (255 - zero) / v : v < 0 ? zero / -v : 1e9f; }
 
-} // namespace cotan::app::bc7
+} // namespace cotan::maps::bc7

@@ -11,7 +11,7 @@
 #include "block.hpp"
 #include "image/uastc_modes.hpp"
 
-namespace cotan::app::uastc {
+namespace cotan::maps::uastc {
 
 struct Texels {
     std::array<glm::vec3, 16> codes, normals; // 0 to 255; unit vectors, or zero if lengths count
@@ -43,4 +43,4 @@ struct Block {
 // The block with the least error.
 Block bestBlock(const Texels& t);
 
-} // namespace cotan::app::uastc
+} // namespace cotan::maps::uastc

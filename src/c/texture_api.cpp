@@ -1,0 +1,42 @@
+// cotan.h: normal maps as textures of blocks.
+#include <string>
+#include <utility>
+
+#include "image_views.hpp"
+#include "maps/textures/make_texture.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+cotan_status cotan_map_texture(const cotan_image_view* map, const cotan_texture_options* options,
+                               cotan_texture_result* result, cotan_bytes** texture, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        Image image = imageOf(map, "map");
+        const cotan_texture_options o = optionsOf(options, "options");
+        require(texture, "texture: expected a pointer, found null");
+        if (result)
+            checked(result, "result");
+        const auto wordOr = [](const char* given, const char* otherwise) {
+            return std::string(given ? given : otherwise);
+        };
+        const std::string container = wordOr(o.container, "ktx2");
+        if (container != "ktx2" && container != "dds")
+            fail(ErrorKind::usage, "options.container: expected ktx2 or dds, found '", container, "'");
+        image.frame = o.frame ? name(frameOr(o.frame, {}, "options.frame")) : "";
+        const std::string from = wordOr(o.from, "gltf,exact");
+        maps::TextureSettings settings{.from = storableAs(from.c_str(), "options.from", image.type),
+                                       .to = conventionOf(wordOr(o.to, from.c_str()).c_str(), "options.to"),
+                                       .compress = wordOr(o.compress, "none"),
+                                       .swizzle = wordOr(o.swizzle, "auto"),
+                                       .file = "map." + container,
+                                       .mips = o.mips != 0};
+        maps::MadeTexture made = valueOf(maps::makeTexture(std::move(image), settings));
+        if (result) {
+            result->levels = made.levels;
+            result->mean_degrees = made.cost ? made.cost->mean : -1;
+            result->percentile99_degrees = made.cost ? made.cost->percentile99 : -1;
+        }
+        *texture = new cotan_bytes{std::move(made.bytes)};
+    });
+}
