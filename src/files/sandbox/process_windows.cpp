@@ -16,13 +16,10 @@ constexpr double kMegabyte = 1 << 20;
 // Ours with these changes, as CreateProcessW takes it: sorted, and case does not distinguish names.
 std::wstring environmentWith(const std::map<std::string, std::string>& changes)
 {
-    struct Less {
-        bool operator()(const std::wstring& a, const std::wstring& b) const
-        {
-            return ::CompareStringOrdinal(a.data(), int(a.size()), b.data(), int(b.size()), TRUE) == CSTR_LESS_THAN;
-        }
+    const auto less = [](const std::wstring& a, const std::wstring& b) {
+        return ::CompareStringOrdinal(a.data(), int(a.size()), b.data(), int(b.size()), TRUE) == CSTR_LESS_THAN;
     };
-    std::map<std::wstring, std::wstring, Less> all;
+    std::map<std::wstring, std::wstring, decltype(less)> all(less);
     wchar_t* const ours = ::GetEnvironmentStringsW();
     for (std::wstring_view rest = ours; !rest.empty(); rest = rest.data() + rest.size() + 1) {
         const std::size_t sign = rest.find(L'=', 1); // names of folders of drives begin with it
