@@ -39,6 +39,7 @@ convert panel.gltf --to-frame cotangent -o c.glb
 convert panel.gltf --to-frame orthonormal --keep-tangents -o c.glb
 convert panel.gltf -o c.glb
 convert panel.gltf --compress uastc -o c.glb
+lint c.glb --details
 convert plain.gltf --to-frame mikktspace -o c.glb
 convert panel.gltf --provoking first -o c.glb
 lint panel.gltf --limit 0.01 --limit-area 0

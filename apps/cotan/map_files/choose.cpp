@@ -1,6 +1,7 @@
 #include "choose.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -10,7 +11,7 @@
 #include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
-#include "inspect/angles.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::app {
 
@@ -50,21 +51,24 @@ Result<std::vector<Candidate>> candidatesFor(const Convention& to, const std::st
     return candidates;
 }
 
-// Squares of the map at equal distances, so that blocks of all sizes lie in them as in the map. A small map stays.
-Image sampleOf(const Image& map)
+// Squares of the map at equal distances, so that blocks of all sizes lie in them as in the map, from the texel (left,
+// top) on. A small map stays, but for what is left of and above that texel. square: a multiple of the sides of a block.
+Image sampleOf(const Image& map, int square = 24, int left = 0, int top = 0)
 {
-    constexpr int kSquare = 24, kAcross = 8, kSide = kSquare * kAcross;
-    if (map.width < 2 * kSide || map.height < 2 * kSide)
-        return map;
-    Image sample = makeImage(kSide, kSide, map.type);
+    constexpr int kAcross = 8;
+    const int side = square * kAcross;
+    const bool whole = map.width < 2 * side || map.height < 2 * side;
+    const int width = whole ? map.width - left : side, height = whole ? map.height - top : side;
+    const int run = whole ? width : square; // texels that are copied at once
+    Image sample = makeImage(width, height, map.type);
     const std::size_t bytes = map.data.size() / map.pixelCount();
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; x += kSquare) {
-            const int column = x / kSquare * (map.width / kAcross / kSquare) * kSquare;
-            const int row = y / kSquare * (map.height / kAcross / kSquare) * kSquare + y % kSquare;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; x += run) {
+            const int column = left + (whole ? 0 : x / square * (map.width / kAcross / square) * square);
+            const int row = top + (whole ? y : y / square * (map.height / kAcross / square) * square + y % square);
             std::copy_n(map.data.data() + bytes * (std::size_t(row) * std::size_t(map.width) + std::size_t(column)),
-                        bytes * kSquare,
-                        sample.data.data() + bytes * (std::size_t(y) * std::size_t(kSide) + std::size_t(x)));
+                        bytes * std::size_t(run),
+                        sample.data.data() + bytes * (std::size_t(y) * std::size_t(width) + std::size_t(x)));
         }
     return sample;
 }
@@ -95,23 +99,48 @@ Json toJson(const TriedFormat& format)
             {"percentile99_degrees", format.percentile99}};
 }
 
+namespace {
+
+// What a format costs an image that is read in `convention`.
+Result<TriedFormat> costOfFormat(const Image& image, const Convention& convention, const std::string& word)
+{
+    Convention to{.expansion = Expansion::biased, .channels = convention.channels};
+    COTAN_TRY(code, codeFor(word, "auto", to, "map.ktx2"));
+    to = storedConvention(*code, to);
+    RecodeCounts counts;
+    const Convention taken = codeConvention(*code, to);
+    const Image given = recode(image, {.from = convention, .to = taken, .type = PixelType::float32}, counts);
+    COTAN_TRY(tried, tryFormat(word, *code, given, given, taken, to));
+    return tried->format;
+}
+
+} // namespace
+
 std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention)
 {
     const Image sample = sampleOf(map);
     std::vector<TriedFormat> costs;
-    for (const char* const word : {"uastc", "bc7", "astc-6x6", "astc-8x8", "bc5", "eac-rg11"}) {
-        Convention to{.expansion = Expansion::biased};
-        const auto code = codeFor(word, "auto", to, "map.ktx2");
-        if (!code)
-            continue;
-        to = storedConvention(*code, to);
-        maps::RecodeCounts counts;
-        const Convention taken = codeConvention(*code, to);
-        const Image given = recode(sample, {.from = convention, .to = taken, .type = PixelType::float32}, counts);
-        if (const auto tried = tryFormat(word, *code, given, given, taken, to))
-            costs.push_back(tried->format);
-    }
+    for (const char* const word : {"uastc", "bc7", "astc-6x6", "astc-8x8", "bc5", "eac-rg11"})
+        if (const auto cost = costOfFormat(sample, convention, word))
+            costs.push_back(*cost);
     return costs;
+}
+
+std::optional<double> costBefore(const Image& map, const Convention& convention, const std::string& compress)
+{
+    constexpr int kLeast = 32, kSquare = 24;
+    const auto code = codeNamed(compress);
+    if (!code || *code == TexelCode::rgba8 || *code == TexelCode::bc3 || map.width < kLeast || map.height < kLeast)
+        return std::nullopt;
+    const int both = std::lcm(code->width, code->height);
+    Image sample = sampleOf(map, both * std::max(1, kSquare / both), code->width / 2, code->height / 2);
+    Convention read = convention;
+    if (map.channels == 2) {
+        read.channels = Channels::orthographic;
+        unswizzle(sample, swizzleOf(sample));
+    }
+    const auto cost = costOfFormat(sample, read, compress);
+    return cost ? std::optional(cost->meanDegrees) : std::nullopt;
 }
 
 Result<ChosenFormat> chooseFormat(const Image& map, const Convention& to, const std::string& swizzle, bool dither,

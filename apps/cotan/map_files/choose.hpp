@@ -1,6 +1,7 @@
 // Chooses the block format of a texture by what it costs in degrees.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,5 +49,12 @@ Result<ChosenFormat> chooseFormat(const Image& map, const Convention& to, const 
 // astc-6x6 and astc-8x8, and of two channels bc5 and eac-rg11. Large maps are sampled: 64 squares of 24 texels a side.
 // Formats that this build cannot write are left out.
 std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention);
+
+// Estimates what the blocks of a map's file have cost it already, in degrees on average: what they cost what they hold,
+// on a grid that is half a block away, where none of the lines and planes fits that the blocks were fitted to. map: as
+// decoded from the file, read in `convention`. compress: as compressionOf. Large maps are sampled as by costsOf.
+// Nothing for pixels, a map smaller than 32 x 32, formats that this build cannot write, and BC3, whose few codes hide
+// what was rounded to them.
+std::optional<double> costBefore(const Image& map, const Convention& convention, const std::string& compress);
 
 } // namespace cotan::app

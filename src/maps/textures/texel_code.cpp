@@ -1,7 +1,6 @@
 #include "maps/textures/texel_code.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -57,17 +56,6 @@ Result<Swizzle> swizzleFor(const std::string& word, const TexelCode& code, const
     return Swizzle::rg;
 }
 
-std::optional<TexelCode> codeNamed(const std::string& word)
-{
-    for (const auto& [name, kind] : kCodes)
-        if (word == name)
-            return kind;
-    for (const TexelCode& code : kAstcSizes)
-        if (word == astcWord(code))
-            return code;
-    return std::nullopt;
-}
-
 // The scale by which a shader decodes codes: see Expansion.
 CodeScale scaleOf(Expansion expansion)
 {
@@ -112,6 +100,17 @@ void averageAlpha(const Image& larger, Image& level)
 }
 
 } // namespace
+
+std::optional<TexelCode> codeNamed(const std::string& word)
+{
+    for (const auto& [name, kind] : kCodes)
+        if (word == name)
+            return kind;
+    for (const TexelCode& code : kAstcSizes)
+        if (word == astcWord(code))
+            return code;
+    return std::nullopt;
+}
 
 bool isTextureFile(const std::filesystem::path& file) { return imageFormatHas(file, &ImageFormat::texture); }
 

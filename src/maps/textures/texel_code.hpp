@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,6 +48,9 @@ std::vector<std::string> swizzleWords();
 // Bits that the code takes for each texel.
 double bitsPerTexel(const TexelCode& code);
 
+// A word of compressionWords as a code, without channels; nothing for another word.
+std::optional<TexelCode> codeNamed(const std::string& compress);
+
 struct TextureLevel {
     int width = 0, height = 0;
     std::vector<std::byte> texels; // rows of pixels, or of blocks
@@ -59,6 +63,10 @@ bool isTextureFile(const std::filesystem::path& file);
 // KTX2 stores.
 std::string textureBytes(const std::filesystem::path& file, const TexelCode& code,
                          const std::vector<TextureLevel>& levels, const std::string& frame = {});
+
+// The word of compressionWords for the blocks of a DDS or KTX2 file, of which only the header is read. Empty: another
+// file, pixels, or blocks that no word names, such as BC1 and ETC.
+std::string compressionOf(std::span<const std::byte> file);
 
 // Normals as a level of a texture that is read as `to`. image: in codeConvention; unorm8 for rgba8, else float32.
 // lengths: for bc7 and uastc, keeps the lengths of vectors. Errors: ErrorKind::unavailable for ASTC in a build without
