@@ -331,7 +331,7 @@ TEST(MapChoice, lintNamesWhatTheBlocksOfAModelHaveCost)
     const TemporaryFolder folder;
     Scene scene;
     for (const Relief relief : {Relief::waves, Relief::domes}) {
-        scene.images.push_back(makeReliefMap(relief, 128));
+        scene.images.push_back(makeReliefMap(relief, 64));
         scene.images.back().name = relief == Relief::waves ? "waves" : "domes";
         scene.materials.emplace_back().normalMap.image = int(scene.images.size()) - 1;
         Mesh mesh = makePlane(1, 1, 1);
@@ -343,7 +343,7 @@ TEST(MapChoice, lintNamesWhatTheBlocksOfAModelHaveCost)
     ASSERT_TRUE(document);
     ASSERT_TRUE(writeGltf(*document, folder / "two.glb"));
     EXPECT_TRUE(done({"lint", "two.glb", "--details"}, folder)["lost_before"].empty());
-    for (const std::string word : {"uastc", "astc-6x6"}) {
+    for (const std::string word : {"uastc"}) {
         const json made = done({"convert", "two.glb", "--keep-maps", "--compress", word, "-o", "blocks.glb"}, folder);
         const json report = done({"lint", "blocks.glb", "--details"}, folder);
         ASSERT_EQ(report["lost_before"].size(), 2u) << word;
