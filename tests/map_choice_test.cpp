@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -188,6 +189,20 @@ TEST(MapChoice, theChosenFormatIsTheSmallestWithinTheLimit)
                 }
             }
     EXPECT_GE(chosen.size(), 4u) << "the limits tell formats apart";
+}
+
+TEST(MapChoice, whereNoBlocksOfThreeChannelsAreWithinTheLimitThoseOfTwoAreNamed)
+{
+    const TemporaryFolder& folder = reliefs();
+    for (const char* map : {"waves.png", "domes.png"})
+        for (const auto& [to, limit, named] :
+             {std::tuple("gltf", "0.02", true), {"gltf", "60", false}, {"gltf,xy", "0.02", false}}) {
+            const ToolRun run = runTool({"map", "convert", map, "--from", "gltf", "--to", to, "--max-degrees", limit,
+                                         "--for", "mobile", "-o", "named.ktx2", "--overwrite"},
+                                        folder.path());
+            EXPECT_EQ(run.code, 0) << run.err;
+            EXPECT_EQ(run.out.find("--to WORDS,xy") != std::string::npos, named) << to << limit << run.out;
+        }
 }
 
 TEST(MapChoice, limitsThatNothingMeetsAndOptionsThatContradictAreRefused)

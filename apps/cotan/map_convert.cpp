@@ -86,6 +86,8 @@ void sayTried(const MapConvertCommandOptions& o, const ConvertedFile& done)
     for (const TriedFormat& tried : done.tried)
         say(o, "{:<10}  {:12.2f}  {:12.3f}  {:.2f}{}", tried.compress, tried.bitsPerTexel, tried.meanDegrees,
             tried.percentile99, tried.compress == done.compress ? "  chosen" : "");
+    if (done.compress == "none" && done.tried.size() > 1 && done.to.channels == Channels::xyz)
+        say(o, "all blocks of three channels lose more; those of two may lose less: --to WORDS,xy");
 }
 
 Status run(const MapConvertCommandOptions& o)
