@@ -5,13 +5,15 @@ import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { usage, wordsFor } from '../src/errors.js';
 import { Chooser, greenAlongV, markGenerated, scalesOf, storedIn } from './choose.js';
 import { keepInClones as keep } from './clones.js';
-import { kFrames, kKey, mapOf, meansTangents, namedFrame } from './frames.js';
+import { isGrooved, kFrames, kKey, mapOf, meansTangents, namedFrame, standsAlone } from './frames.js';
 import { withVertices } from './gathered.js';
 import { GreenNotes, ofGltf } from './greens.js';
 import { numbersOf, readingOf, turns, uvMatrixOf, uvNameOf } from './mesh_data.js';
 import { packed, withTangents } from './mikktspace.js';
 import { kSmoothAttributes, withSmooth } from './smooth.js';
 import { kTriangleAttribute, withTriangles } from './triangles.js';
+
+export const kCoatAlone = 'coat'; // instead of a frame: three draws tangents, and the coat gets `orthonormal` of its own texture coordinates
 
 const kConventions = ['gltf', 'directx'];
 const kMaxDegrees = 0.3;
@@ -88,7 +90,8 @@ export function untangleMeshes(target, o, { provoking = 'last', instances = true
 
 // ---- decisions ----------------------------------------------------------------------------------
 
-const mapsOf = ({ normalMap, clearcoatNormalMap }) => [normalMap, clearcoatNormalMap];
+// The maps of a material that read a frame.
+const mapsOf = material => [material.normalMap, material.clearcoatNormalMap, isGrooved(material) ? mapOf(material) : null];
 
 function remember(geometry, material, decision) {
   if (!decided.has(geometry)) decided.set(geometry, new WeakMap());
@@ -185,9 +188,9 @@ const inverts = mesh => !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 
 
 // Tangents that were loaded are drawn as they are. Others are made, for mirrored meshes with the other w.
 function giveTangents(mesh, materials, decisions, all) {
-  const map = firstMapOf(materials), { geometry } = mesh;
+  const map = firstMapOf(materials), { geometry } = mesh, gltf = map ? ofGltf(map) : all.loaded;
   if (drawsStored(mesh, map, decisions) || geometry.attributes.tangent && !storedIn(geometry)) return;
-  mesh.geometry = made(mesh, ['mikktspace', readingOf(map), inverts(mesh)], all, () => markGenerated(withTangents(geometry, map, ofGltf(map) !== inverts(mesh))));
+  mesh.geometry = made(mesh, ['mikktspace', readingOf(map), inverts(mesh)], all, () => markGenerated(withTangents(geometry, map, gltf !== inverts(mesh))));
 }
 
 // Adds the attributes that the frames of a mesh read to its geometry.
@@ -252,8 +255,9 @@ function signsOf(mesh, material, k, { tangents, reads }, { o, chooser, greens, c
   const stored = !!storedIn(mesh.geometry), wants = {}, includes = {}, factors = {}, before = earlier.get(material), means = meansTangents(material, mesh.geometry);
   for (const [name, mapName] of scalesOf(material)) {
     const map = material[mapName], gltf = map ? ofGltf(map) : loaded, initial = gltf && !stored ? -1 : 1; // GLTFLoader flips it if there are no tangents
-    let shown = reads && !o.convention ? undefined : before?.wants[name] ?? initial; // which way tangents and uv say
-    if (stored && (!reads || o.convention)) {
+    const alone = standsAlone(material, map); // tangents say nothing of it
+    let shown = alone ? before?.wants[name] : reads && !o.convention ? undefined : before?.wants[name] ?? initial; // which way tangents and uv say
+    if (stored && !alone && (!reads || o.convention)) {
       const areas = chooser.areas(mesh, material, k, map);
       shown = !gltf || !map ? areas.against > areas.along || areas.along === 0 && gltf ? -1 : 1 : means ? greenAlongV(map, areas) : -1;
       const use = [mesh.geometry.uuid, map?.uuid, k].join();
@@ -263,7 +267,7 @@ function signsOf(mesh, material, k, { tangents, reads }, { o, chooser, greens, c
     // v runs down the image in glTF
     wants[name] = o.convention && map ? ((o.convention === 'gltf') === (gltf || map.flipY === false) ? -1 : 1) : shown ?? (gltf ? -1 : 1);
     // Green is right as it is for stored bitangents, unless three inverts them; those that are made run against v for a glTF.
-    includes[name] = reads ? (o.convention ? wants[name] * shown : 1) * (inverts(mesh) ? -1 : 1) : tangents && gltf ? -wants[name] : wants[name];
+    includes[name] = alone ? wants[name] : reads ? (o.convention ? wants[name] * shown : 1) * (inverts(mesh) ? -1 : 1) : tangents && gltf ? -wants[name] : wants[name];
     factors[name] = (before?.includes[name] ?? initial) * includes[name];
   }
   const map = mapOf(material), gltf = loaded || ofGltf(map);
@@ -280,7 +284,7 @@ function runsAgainst({ along, against }, map, gltf) {
 // whether an earlier call has set them.
 function copyFor(material, { frame, against, wants, includes, factors }, same, { copies, earlier, replace, restore }) {
   if (!copies.has(material)) copies.set(material, { made: new Map(), scales: Object.fromEntries(Object.keys(factors).map(name => [name, material[name].clone()])) });
-  const { made, scales } = copies.get(material), tangents = frame === 'mikktspace', key = [frame, tangents || against, ...Object.values(factors)].join();
+  const { made, scales } = copies.get(material), tangents = frame === 'mikktspace', alone = tangents && standsAlone(material, material.clearcoatNormalMap), key = [frame, tangents || against, ...Object.values(factors)].join();
   if (!made.has(key)) {
     const before = earlier.get(material), switches = before && (before.frame === 'mikktspace') !== tangents; // meshes elsewhere may have it as it is
     const copy = made.size === 0 && !switches ? material : material.clone();
@@ -292,7 +296,7 @@ function copyFor(material, { frame, against, wants, includes, factors }, same, {
     }
     known.set(copy, { frame, against, wants, includes });
     if (same && copy === material) return copy;
-    if (!tangents) replace(copy, { frame, against, from: material });
+    if (!tangents || alone) replace(copy, { frame: alone ? kCoatAlone : frame, against, from: material });
     else {
       if (switches) restore(copy);
       else if (copy !== material && Object.hasOwn(material, 'onBeforeCompile')) copy.onBeforeCompile = material.onBeforeCompile;

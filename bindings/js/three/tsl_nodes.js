@@ -4,7 +4,7 @@ import * as three from 'three/webgpu';
 import { choice } from '../src/arrays.js';
 import { CotanError, usage, wordsFor } from '../src/errors.js';
 import { frameFor, kSupported } from './frames.js';
-import { keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
+import { kCoatAlone, keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
 import { addToKey } from './node_keys.js';
 import { essl, wgsl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
@@ -26,7 +26,7 @@ export function untangle(target, options) {
   if (o.frame === 'triangle' && !renderer?.backend)
     throw usage('options.renderer: expected a renderer, after `await renderer.init()`, for the frame triangle; found none');
   const provoking = renderer?.backend?.isWebGPUBackend ? 'first' : 'last';
-  return untangleMeshes(target, o, { provoking, instances: false, deformed: false, triangles: !!renderer?.backend }, replaceFrame, restoreFrame);
+  return untangleMeshes(target, o, { provoking, instances: false, deformed: false, triangles: !!renderer?.backend }, setFrame, restoreFrame);
 }
 
 // untangle() as a plugin: loader.register(untangled()).
@@ -36,24 +36,29 @@ export const untangled = options => {
 };
 
 const ours = new WeakSet();  // nodes that replaceFrame() made
-const chosen = new WeakMap();  // by material: { frame, against }
+const chosen = new WeakMap();  // by material: { frame, against }. frame: may be kCoatAlone
 
 // Replaces the frame of one material and nothing else: removes no tangents, flips no scale, keeps nodes of the user.
 export function replaceFrame(material, options) {
-  const { frame: requested, against } = replaceOptions(material, options, { from: undefined }), frame = frameFor(material, requested);
-  const { normalMap, clearcoatNormalMap } = material;
+  const { frame, against } = replaceOptions(material, options, { from: undefined });
+  return setFrame(material, { frame: frameFor(material, frame), against });
+}
+
+function setFrame(material, { frame, against }) {
+  const { normalMap, clearcoatNormalMap } = material, coatAlone = frame === kCoatAlone;
+  if (coatAlone) restoreFrame(material);
   const put = (name, map, scale) => {
     if (material[name] && !ours.has(material[name])) return;
-    material[name] = perturbed(mapOfMaterial(map), materialReference(scale, 'vec2'), frame);
+    material[name] = perturbed(mapOfMaterial(map), materialReference(scale, 'vec2'), coatAlone ? 'orthonormal' : frame);
     ours.add(material[name]);
   };
-  if (normalMap && material.normalMapType !== ObjectSpaceNormalMap) put('normalNode', 'normalMap', 'normalScale');
+  if (normalMap && !coatAlone && material.normalMapType !== ObjectSpaceNormalMap) put('normalNode', 'normalMap', 'normalScale');
   if (clearcoatNormalMap) put('clearcoatNormalNode', 'clearcoatNormalMap', 'clearcoatNormalScale');
-  if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, against);
+  if (material.anisotropy !== undefined && !coatAlone) material.setupVariants = variantsWith(frame, against);
   material.needsUpdate = true;
   chosen.set(material, { frame, against });
   addToKey(material, 'frame', keyOf);
-  return keepInClones(material, (clone, source) => replaceFrame(clone, chosen.get(source)));
+  return keepInClones(material, (clone, source) => setFrame(clone, chosen.get(source)));
 }
 
 // Makes a material with a replaced frame draw three's own again.
@@ -140,7 +145,8 @@ function variantsWith(frame, against) {
   return function setupVariants(builder) {
     Object.getPrototypeOf(this).setupVariants.call(this, builder);
     if (!this.useAnisotropy) return;
-    const read = builder.material.normalMap ? mapOfMaterial('normalMap')(builder) : null; // it may have gone meanwhile
+    const map = ['normalMap', 'anisotropyMap', 'clearcoatNormalMap'].find(name => builder.material[name]); // it may have gone meanwhile
+    const read = map ? mapOfMaterial(map)(builder) : null;
     const { t, b, n } = frameOf(frame, read, builder);
     const along = t.dot(b.cross(n)).sign().mul(b.cross(n)).normalize().toVar();
     const across = n.cross(along).toVar();
