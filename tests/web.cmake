@@ -24,7 +24,7 @@ cotan_web_test(package ARGUMENTS ${tarball} $<TARGET_FILE:cotan_c> FIXTURES web 
 foreach(name instance zip)
   cotan_web_test(${name} ARGUMENTS ${tarball} FIXTURES web npm)
 endforeach()
-foreach(name arguments gltf_transform model_viewer react three three_choice types bundlers browser readme)
+foreach(name arguments gltf_transform model_viewer one_file react three three_choice types bundlers browser readme)
   cotan_web_test(${name} ARGUMENTS ${tarball} ${modules} FIXTURES web npm)
 endforeach()
 
