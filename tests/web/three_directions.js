@@ -89,12 +89,13 @@ for (const frame of ['orthonormal', 'cotangent', 'smooth', 'triangle']) kWays[fr
 const kAll = [{ surfaces: Object.keys(kSurfaces), cases: Object.keys(kCases), ways: Object.keys(kWays) }];
 
 // { pixels, mean, most, tangents } by surface, case and way: degrees from the truth, and whether the mesh still has tangents. kind:
-// 'webgl', or 'nodes' for WebGPURenderer on WebGL 2. Stored tangents are those of bumps, else of the map of grooves, else right.
+// 'webgl', or for WebGPURenderer 'nodes' on WebGL 2 and 'webgpu'. Stored tangents are those of bumps, else of the map of grooves, else right.
 export async function measure(kind, asked = kAll) {
-  const THREE = await import(kind === 'webgl' ? 'three' : 'three/webgpu'), tsl = kind === 'nodes' && await import('three/tsl'), found = {};
+  const THREE = await import(kind === 'webgl' ? 'three' : 'three/webgpu'), tsl = kind !== 'webgl' && await import('three/tsl'), found = {};
   const { untangle } = await import(kind === 'webgl' ? '/package/three/index.js' : '/package/three/tsl.js');
-  const renderer = kind === 'webgl' ? new THREE.WebGLRenderer() : new THREE.WebGPURenderer({ forceWebGL: true });
+  const renderer = kind === 'webgl' ? new THREE.WebGLRenderer() : new THREE.WebGPURenderer({ forceWebGL: kind === 'nodes' });
   await renderer.init?.();
+  if (kind === 'webgpu' && !renderer.backend.isWebGPUBackend) return null;
   const target = new (kind === 'webgl' ? THREE.WebGLRenderTarget : THREE.RenderTarget)(kSize, kSize, { type: THREE.FloatType });
   renderer.setClearColor(0, 0);
   const camera = new THREE.OrthographicCamera(-1.2, 1.2, 1.2, -1.2, 0.1, 10);
@@ -103,13 +104,13 @@ export async function measure(kind, asked = kAll) {
     renderer.setRenderTarget(target);
     renderer.clear?.();
     renderer.render(new THREE.Scene().add(mesh, new THREE.DirectionalLight()), camera);
-    if (kind === 'nodes') return renderer.readRenderTargetPixelsAsync(target, 0, 0, kSize, kSize);
+    if (tsl) return renderer.readRenderTargetPixelsAsync(target, 0, 0, kSize, kSize);
     const pixels = new Float32Array(kSize * kSize * 4);
     renderer.readRenderTargetPixels(target, 0, 0, kSize, kSize, pixels);
     return pixels;
   };
   const showing = (material, what) => {
-    if (kind === 'nodes') { material.outputNode = tsl.vec4(what === 'along' ? tsl.anisotropyT : tsl.clearcoatNormalView, 1); return; }
+    if (tsl) { material.outputNode = tsl.vec4(what === 'along' ? tsl.anisotropyT : tsl.clearcoatNormalView, 1); return; }
     const before = material.onBeforeCompile;
     material.onBeforeCompile = (shader, given) => {
       before.call(material, shader, given);
@@ -117,7 +118,7 @@ export async function measure(kind, asked = kAll) {
     };
   };
   const parametersOf = () => {
-    if (kind === 'nodes') { const material = new THREE.MeshBasicNodeMaterial({ side: THREE.DoubleSide }); material.outputNode = tsl.vec4(tsl.uv(2), 0, 1); return material; }
+    if (tsl) { const material = new THREE.MeshBasicNodeMaterial({ side: THREE.DoubleSide }); material.outputNode = tsl.vec4(tsl.uv(2), 0, 1); return material; }
     return new THREE.ShaderMaterial({ side: THREE.DoubleSide, vertexShader: 'attribute vec2 uv2; varying vec2 at; void main() { at = uv2; gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 ); }',
       fragmentShader: 'varying vec2 at; void main() { gl_FragColor = vec4( at, 0.0, 1.0 ); }' });
   };
