@@ -22,10 +22,11 @@ const [c0, s0] = turn(30), [c1, s1] = turn(70);
 const kSets = [[c0, c0 - s0, s0, s0 + c0], [c1, -s1, s1, c1]];
 
 // What a material has: its maps by texture coordinate set, by how much their textures are turned, what is drawn, and the set
-// that it must follow. rotation: of the directions, from u towards v. anisotropy: where the coat is drawn.
+// that it must follow. rotation: of the directions, from u towards v. anisotropy: where the coat is drawn. mirrored: the mesh is.
 export const kCases = {
   'no maps': { maps: {}, draws: 'along', set: 0 },
   'no maps, rotation': { maps: {}, draws: 'along', set: 0, rotation: 0.6 },
+  'no maps, rotation, mirrored mesh': { maps: {}, draws: 'along', set: 0, rotation: 0.6, mirrored: true },
   'map of grooves on set 1': { maps: { anisotropyMap: 1 }, draws: 'along', set: 1 },
   'map of grooves, texture turned': { maps: { anisotropyMap: 1 }, turned: { anisotropyMap: 0.5 }, draws: 'along', set: 1 },
   'bumps on set 0, map of grooves on set 1': { maps: { normalMap: 0, anisotropyMap: 1 }, draws: 'along', set: 0 },
@@ -83,6 +84,7 @@ const kWays = {
   'stock, tangents': { stored: true, change: () => {} },
   untangled: { change: (untangle, mesh) => untangle(mesh, { note() {} }) },
   'untangled, tangents': { stored: true, change: (untangle, mesh) => untangle(mesh, { note() {} }) },
+  'untangled, tangents stay': { stored: true, change: (untangle, mesh) => untangle(mesh, { note() {}, maxDegrees: 1e-9 }) },
 };
 for (const frame of ['orthonormal', 'cotangent', 'smooth', 'triangle']) kWays[frame] = { change: (untangle, mesh, renderer) => untangle(mesh, { frame, note() {}, ...renderer.isWebGPURenderer && { renderer } }) };
 
@@ -124,10 +126,11 @@ export async function measure(kind, asked = kAll) {
   };
   const parametersDrawn = {};
   const one = async (name, label, way) => {
-    const surface = kSurfaces[name], { set, draws, turned = {}, rotation = 0, maps } = kCases[label], { stored, change } = kWays[way];
-    const parameters = parametersDrawn[name] ??= await draw(new THREE.Mesh(geometryOf(THREE, surface), parametersOf()));
+    const surface = kSurfaces[name], { set, draws, turned = {}, rotation = 0, maps, mirrored } = kCases[label], { stored, change } = kWays[way];
+    const placed = mesh => { if (mirrored) mesh.scale.x = -1; return mesh; }, seen = ([x, y, z]) => (mirrored ? [-x, y, z] : [x, y, z]);
+    const parameters = parametersDrawn[[name, mirrored]] ??= await draw(placed(new THREE.Mesh(geometryOf(THREE, surface), parametersOf())));
     const reader = draws === 'coat' ? 'clearcoatNormalMap' : ['normalMap', 'anisotropyMap', 'clearcoatNormalMap'].find(key => key in maps), matrix = matrixOf(set, turned[reader]);
-    const mesh = new THREE.Mesh(geometryOf(THREE, surface, stored && (maps.normalMap ?? maps.anisotropyMap ?? set)), materialOf(THREE, kCases[label]));
+    const mesh = placed(new THREE.Mesh(geometryOf(THREE, surface, stored && (maps.normalMap ?? maps.anisotropyMap ?? set)), materialOf(THREE, kCases[label])));
     change(untangle, mesh, renderer);
     showing(mesh.material, draws);
     const pixels = await draw(mesh), degrees = [];
@@ -137,7 +140,7 @@ export async function measure(kind, asked = kAll) {
       if (n[2] < 0.2) continue; // silhouettes, and backs
       const truth = draws === 'coat' ? sum(sum(t, kCoat[0], b, kCoat[1]), 1, n, kCoat[2]) : sum(t, Math.cos(rotation), b, Math.sin(rotation));
       const drawn = [pixels[i], pixels[i + 1], pixels[i + 2]];
-      degrees.push(Math.atan2(Math.hypot(...cross(drawn, truth)), dot(drawn, truth)) * 180 / Math.PI);
+      degrees.push(Math.atan2(Math.hypot(...cross(drawn, seen(truth))), dot(drawn, seen(truth))) * 180 / Math.PI);
     }
     const tangents = !!mesh.geometry.attributes.tangent;
     mesh.geometry.dispose();

@@ -42,11 +42,12 @@ function expectAll(found, limits) {
 }
 
 const kBoth = ['stock, tangents', 'untangled, tangents'];
-const kKept = 'coat on set 1 over grooves of set 0', kOnOther = 'map of grooves on set 1';
+const kKept = 'coat on set 1 over grooves of set 0', kOnOther = 'map of grooves on set 1', kMirrored = 'no maps, rotation, mirrored mesh';
 async function hold(kind) {
   const under = 'bumps on set 1, map of grooves on set 0', stays = 'coat on set 1, map of grooves on set 0';
   const found = await measured(kind, 'measure', [kind, [
     { surfaces: kind === 'webgl' ? ['plane', 'sphere', 'torus'] : ['torus'], cases: ['no maps, rotation'], ways: kBoth },
+    { surfaces: ['torus'], cases: [kMirrored], ways: [...kBoth, 'untangled, tangents stay'] },
     { surfaces: ['torus'], cases: [kOnOther], ways: ['stock', ...kBoth, 'untangled', 'orthonormal'] },
     { surfaces: ['torus'], cases: [under, stays, kKept, 'coat on set 1, bumps on set 0'], ways: kBoth },
   ]]);
@@ -54,6 +55,7 @@ async function hold(kind) {
   print(kind, found);
   for (const { 'no maps, rotation': one } of Object.values(found)) expectAll(one, { 'stock, tangents': [0, 0.1, true], 'untangled, tangents': [0, 0.3] });
   const { torus } = found, judge = [0, 0.1, true];
+  expectAll(torus[kMirrored], { 'stock, tangents': [20, 180, true], 'untangled, tangents': [0, 0.3], 'untangled, tangents stay': judge });
   expectAll(torus[kOnOther], { stock: [20, 180], 'stock, tangents': judge, 'untangled, tangents': [0, 0.3], untangled: [0, 0.3], orthonormal: [0, 2] });
   expectAll(torus[under], { 'stock, tangents': judge, 'untangled, tangents': [0, 0.3] });
   // `smooth` is for one set of texture coordinates, and `orthonormal` is too far off: the tangents stay.

@@ -3,7 +3,7 @@ import { REVISION, ShaderChunk } from 'three';
 import { CotanError } from '../src/errors.js';
 import { frameFor } from './frames.js';
 import { put, writeWith } from './hooks.js';
-import { kCoatAlone, keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
+import { kCoatAlone, keepInClones, kTangents, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
 import { essl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
 
@@ -20,7 +20,7 @@ export const untangled = options => {
   return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { (gltf.userData ??= {}).cotan = untangle(gltf, options); } });
 };
 
-const frames = new WeakMap(); // by material: { frame, against }. frame: `mikktspace` where three's own is drawn again, or kCoatAlone
+const frames = new WeakMap(); // by material: { frame, against, inverted }. frame: `mikktspace` where three's own is drawn again, or as kTangents
 
 // Replaces the frame of one material and nothing else: removes no tangents and flips no scale. The user's hooks stay,
 // even if set later, and clone() keeps the frame.
@@ -31,9 +31,9 @@ export function replaceFrame(material, options) {
   return setFrame(material, { frame: taken || frameFor(material, requested), against, from });
 }
 
-function setFrame(material, { frame, against, from }) {
+function setFrame(material, { frame, against, inverted = false, from }) {
   checkThree();
-  frames.set(material, { frame, against });
+  frames.set(material, { frame, against, inverted });
   writeWith(material, 'frame', keyOf, writeFrame, from);
   return keepInClones(material, (clone, source) => setFrame(clone, frames.get(source)));
 }
@@ -41,7 +41,7 @@ function setFrame(material, { frame, against, from }) {
 // Makes a material with a replaced frame draw three's own again.
 function restoreFrame(material) {
   if (!frames.has(material)) return;
-  frames.get(material).frame = 'mikktspace';
+  Object.assign(frames.get(material), { frame: 'mikktspace', inverted: false });
   material.needsUpdate = true;
   keepInClones(material, () => {});
 }
@@ -49,12 +49,10 @@ function restoreFrame(material) {
 const keyOf = material => Object.values(frames.get(material)).join();
 
 function writeFrame(shader, material) {
-  const { frame, against } = frames.get(material);
-  if (frame === 'mikktspace') return;
-  if (frame === kCoatAlone) {
-    patchCoat(shader, material);
-    return;
-  }
+  const { frame, against, inverted } = frames.get(material);
+  if (frame === kCoatAlone) patchCoat(shader, material);
+  if (inverted) put(shader, 'fragmentShader', kMaps, `${kMaps}\n#if defined( USE_ANISOTROPY ) && defined( USE_TANGENT )\ntbn[ 1 ] = - tbn[ 1 ];\n#endif\n`, material);
+  if (['mikktspace', kCoatAlone, kTangents].includes(frame)) return;
   if (shader.vertexTangents)
     console.warn(`Cotan: a mesh with the material "${material.name || material.type}" has tangents, so three does not use Cotan's `
       + 'frame: call untangle() on it');
@@ -68,15 +66,14 @@ function checkThree() {
     throw new CotanError('unavailable', `three: expected version 0.160 or later with getTangentFrame in its shaders, found ${REVISION}`);
 }
 
+const kMaps = '#include <normal_fragment_maps>'; // after this chunk three uses its frame only for anisotropy
 const kInclude = '#include <normalmap_pars_fragment>', kFunction = /mat3 getTangentFrame\([^{]*\{[^}]*\}/;
 
 function patchFragment(shader, material, { frame, against }) {
   const chunk = { text: ShaderChunk.normalmap_pars_fragment }, stored = kStoredFrames[frame];
   put(chunk, 'text', kFunction, `${essl[frame]}\n${stored ? stored.frame : frameOf(frame)}`, material);
   put(shader, 'fragmentShader', kInclude, (stored ? stored.varyings('in') : '') + chunk.text + kAnisotropyFrame, material);
-  // After this chunk three uses its frame only for anisotropy.
-  const maps = '#include <normal_fragment_maps>';
-  put(shader, 'fragmentShader', maps, `${maps}
+  put(shader, 'fragmentShader', kMaps, `${kMaps}
 #if defined( USE_ANISOTROPY ) && ! defined( USE_TANGENT )
 #if defined( USE_ANISOTROPYMAP ) && ! defined( USE_NORMALMAP )
 tbn = getTangentFrame( - vViewPosition, nonPerturbedNormal, vAnisotropyMapUv );

@@ -13,13 +13,15 @@ import { packed, withTangents } from './mikktspace.js';
 import { kSmoothAttributes, withSmooth } from './smooth.js';
 import { kTriangleAttribute, withTriangles } from './triangles.js';
 
-export const kCoatAlone = 'coat'; // instead of a frame: three draws tangents, and the coat gets `orthonormal` of its own texture coordinates
+// Instead of a frame, where three draws tangents: what is corrected. `inverted` says whether three inverts the bitangents, by
+// which the directions of anisotropy turn. kCoatAlone: the coat gets `orthonormal` of its own texture coordinates, too.
+export const kCoatAlone = 'coat', kTangents = 'tangents';
 
 const kConventions = ['gltf', 'directx'];
 const kMaxDegrees = 0.3;
 
-// State of materials that we have set: { frame, against, wants, includes }. frame: one of kSupported, or `mikktspace` where
-// three reads tangents by itself. against: whether bitangents run against v. wants: for each scale, whether green in the file
+// State of materials that we have set: { frame, against, corrected, wants, includes }. frame: one of kSupported, or `mikktspace`
+// where three reads tangents by itself. corrected: as kTangents, if anything is. against: whether bitangents run against v. wants: for each scale, whether green in the file
 // points along v (1) or against it (-1). includes: the sign that the scale has been multiplied with, for the bitangents that
 // the material is drawn with.
 const known = new WeakMap();
@@ -249,7 +251,7 @@ function freeTogether(meshes, made) {
 
 // ---- materials ----------------------------------------------------------------------------------
 
-// { wants, includes, factors, against } for a material: see `known`; factors: by scale, the sign to multiply the current scale
+// { wants, includes, factors, against, inverted } for a material: see `known`, kTangents; factors: by scale, the sign to multiply the current scale
 // with, so that it includes the new one. tangents, reads: whether three draws tangents, and whether they are the stored ones.
 function signsOf(mesh, material, k, { tangents, reads }, { o, chooser, greens, counted, loaded, earlier }) {
   const stored = !!storedIn(mesh.geometry), wants = {}, includes = {}, factors = {}, before = earlier.get(material), means = meansTangents(material, mesh.geometry);
@@ -271,7 +273,7 @@ function signsOf(mesh, material, k, { tangents, reads }, { o, chooser, greens, c
     factors[name] = (before?.includes[name] ?? initial) * includes[name];
   }
   const map = mapOf(material), gltf = loaded || ofGltf(map);
-  return { wants, includes, factors, against: stored && !tangents ? runsAgainst(chooser.areas(mesh, material, k, map), map, gltf) : before?.against ?? gltf };
+  return { wants, includes, factors, inverted: reads && isGrooved(material) && inverts(mesh), against: stored && !tangents ? runsAgainst(chooser.areas(mesh, material, k, map), map, gltf) : before?.against ?? gltf };
 }
 
 // Whether stored bitangents run against increasing v as the map is read. Those of a glTF are for v before its transform.
@@ -282,9 +284,10 @@ function runsAgainst({ along, against }, map, gltf) {
 
 // The material with the given settings: the original for the first settings that meshes need, copies for others. same:
 // whether an earlier call has set them.
-function copyFor(material, { frame, against, wants, includes, factors }, same, { copies, earlier, replace, restore }) {
+function copyFor(material, { frame, against, inverted, wants, includes, factors }, same, { copies, earlier, replace, restore }) {
   if (!copies.has(material)) copies.set(material, { made: new Map(), scales: Object.fromEntries(Object.keys(factors).map(name => [name, material[name].clone()])) });
-  const { made, scales } = copies.get(material), tangents = frame === 'mikktspace', alone = tangents && standsAlone(material, material.clearcoatNormalMap), key = [frame, tangents || against, ...Object.values(factors)].join();
+  const { made, scales } = copies.get(material), tangents = frame === 'mikktspace', key = [frame, tangents ? inverted : against, ...Object.values(factors)].join();
+  const corrected = tangents && (standsAlone(material, material.clearcoatNormalMap) ? kCoatAlone : inverted ? kTangents : undefined);
   if (!made.has(key)) {
     const before = earlier.get(material), switches = before && (before.frame === 'mikktspace') !== tangents; // meshes elsewhere may have it as it is
     const copy = made.size === 0 && !switches ? material : material.clone();
@@ -294,11 +297,11 @@ function copyFor(material, { frame, against, wants, includes, factors }, same, {
       copy[name].copy(scales[name]);
       copy[name].y *= factor;
     }
-    known.set(copy, { frame, against, wants, includes });
+    known.set(copy, { frame, against, corrected, wants, includes });
     if (same && copy === material) return copy;
-    if (!tangents || alone) replace(copy, { frame: alone ? kCoatAlone : frame, against, from: material });
+    if (!tangents || corrected) replace(copy, { frame: corrected || frame, against, inverted, from: material });
     else {
-      if (switches) restore(copy);
+      if (switches || before?.corrected) restore(copy);
       else if (copy !== material && Object.hasOwn(material, 'onBeforeCompile')) copy.onBeforeCompile = material.onBeforeCompile;
       if (Object.values(factors).some(factor => factor < 0)) keepInClones(copy, () => {});
     }
