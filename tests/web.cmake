@@ -24,7 +24,7 @@ cotan_web_test(package ARGUMENTS ${tarball} $<TARGET_FILE:cotan_c> FIXTURES web 
 foreach(name instance zip)
   cotan_web_test(${name} ARGUMENTS ${tarball} FIXTURES web npm)
 endforeach()
-foreach(name arguments gltf_transform model_viewer react three three_choice types bundlers browser readme)
+foreach(name arguments gltf_transform model_viewer one_file react three three_choice types bundlers browser readme)
   cotan_web_test(${name} ARGUMENTS ${tarball} ${modules} FIXTURES web npm)
 endforeach()
 
@@ -45,6 +45,9 @@ cotan_web_test(bevy ARGUMENTS ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 
 # Compares cotan/three with its defaults, from its sources, with stock three.js.
 cotan_web_test(three_defaults ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} FIXTURES npm)
+
+# Anisotropy and clear coats whose maps have texture coordinates of their own.
+cotan_web_test(three_directions ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} FIXTURES npm)
 
 # The edges of triangles and of control flow, by the printed text alone.
 cotan_web_test(edges ARGUMENTS ${modules} $<TARGET_FILE:cotan> FIXTURES npm)

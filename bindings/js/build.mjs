@@ -7,6 +7,8 @@ import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { deflateRawSync } from 'node:zlib';
 
+import { oneFile } from './one_file.mjs';
+
 const tool = process.argv.find((word) => word.startsWith('--tool='))?.slice('--tool='.length);
 const [wasmFolder, out, version, repository] = process.argv.slice(2).filter((word) => !word.startsWith('--tool='));
 if (!version) {
@@ -95,6 +97,13 @@ for (const [name, text] of Object.entries(entries)) {
 fs.copyFileSync(path.join(here, 'types/old_names.d.ts'), path.join(packageFolder, 'old_names.d.ts'));
 for (const folder of ['three', 'gltf-transform'])
   if (fs.existsSync(path.join(here, folder))) fs.cpSync(path.join(here, folder), path.join(packageFolder, folder), { recursive: true });
+
+// Single files for pages without a bundler.
+const singles = { three: ['index', 'relief'], 'three-tsl': ['tsl_nodes', 'relief_nodes'] }, types = { three: ['index', 'relief'], 'three-tsl': ['tsl', 'relief'] };
+for (const [name, modules] of Object.entries(singles)) {
+  put(`dist/${name}.js`, `// Cotan ${version}, MIT licence. Imports three.\n${oneFile(modules.map((module) => path.join(here, 'three', `${module}.js`)), slim)}`);
+  put(`dist/${name}.d.ts`, types[name].map((module) => `export * from '../three/${module}.js';\n`).join(''));
+}
 
 const manifest = JSON.parse(fs.readFileSync(path.join(here, 'package.json'), 'utf8'));
 manifest.version = version;

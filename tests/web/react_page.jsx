@@ -3,7 +3,9 @@ import { createRoot, extend } from '@react-three/fiber';
 import { act, Component, StrictMode, useRef } from 'react';
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { RenderTarget, WebGPURenderer } from 'three/webgpu';
 import { untangle } from 'cotan/three';
+import { untangle as untangleNodes } from 'cotan/three/tsl';
 import { Untangled, useUntangled } from 'cotan/react';
 
 globalThis.IS_REACT_ACT_ENVIRONMENT = true;
@@ -85,6 +87,45 @@ export async function beside(url) {
   const ours = await alone(gltf => untangle(gltf, { note() {} })), stock = await alone(() => {});
   renderer.dispose();
   return { pixels: drawn.filter((value, k) => k % 4 !== 3 && value > 20).length, fromOurs: bytesApart(drawn, ours), fromStock: bytesApart(drawn, stock), before, after, decided };
+}
+
+// The same with WebGPURenderer, which react-three-fiber takes from a function of the page. forceWebGL: on WebGL 2.
+export async function besideNodes(url, forceWebGL) {
+  const made = async canvas => {
+    const renderer = new WebGPURenderer({ canvas, antialias: false, forceWebGL });
+    await renderer.init();
+    renderer.setSize(kSize, kSize, false);
+    return renderer;
+  };
+  const drawn = async (renderer, scene, view) => {
+    const target = new RenderTarget(kSize, kSize);
+    renderer.setRenderTarget(target);
+    renderer.render(scene, view);
+    const pixels = await renderer.readRenderTargetPixelsAsync(target, 0, 0, kSize, kSize);
+    renderer.setRenderTarget(null);
+    return pixels;
+  };
+  const canvas = document.createElement('canvas'), root = createRoot(canvas), mine = await load(url), factor = factorOf(mine), before = tangentsIn(mine), decided = [];
+  await root.configure({ gl: () => made(canvas), frameloop: 'never', flat: true, dpr: 1, size: { width: kSize, height: kSize, top: 0, left: 0 }, camera: camera() });
+  let state;
+  await act(async () => {
+    state = root.render(<StrictMode>{lights}<group scale={kMirrored}><Untangled object={mine} scale={factor} untangle={untangleNodes} note={() => {}} onDecided={all => decided.push(all.length)} /></group></StrictMode>).getState();
+  });
+  const image = await drawn(state.gl, state.scene, state.camera), after = tangentsIn(mine), webgpu = !!state.gl.backend.isWebGPUBackend;
+  await act(async () => root.unmount());
+  const renderer = await made(document.createElement('canvas'));
+  const alone = async prepare => {
+    const gltf = await load(url), parent = new THREE.Group();
+    parent.scale.set(...kMirrored);
+    gltf.scene.scale.setScalar(factor);
+    const scene = plainScene(parent.add(gltf.scene));
+    scene.updateMatrixWorld(true);
+    prepare(gltf);
+    return drawn(renderer, scene, camera());
+  };
+  const ours = await alone(gltf => untangleNodes(gltf, { note() {} })), stock = await alone(() => {});
+  renderer.dispose();
+  return { webgpu, pixels: image.filter((value, k) => k % 4 !== 3 && value > 20).length, fromOurs: bytesApart(image, ours), fromStock: bytesApart(image, stock), before, after, decided };
 }
 
 // What the renderer holds before a model is drawn, with it, and after it is unmounted; and the bytes in which the image

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { launch, serve } from './chromium.mjs';
+import { kGpuArguments, launch, serve } from './chromium.mjs';
 import { data, missing } from './data.mjs';
 import { here, installed, runCases, skip } from './shared.mjs';
 
@@ -19,7 +19,7 @@ fs.copyFileSync(path.join(here, 'react_page.jsx'), path.join(folder, 'page.jsx')
 execFileSync(path.join(modules, '.bin/esbuild'), ['page.jsx', '--bundle', '--format=esm', '--jsx=automatic', '--define:process.env.NODE_ENV="development"', '--outfile=page.js', '--log-level=error'], { cwd: folder });
 fs.writeFileSync(path.join(folder, 'index.html'), '<!doctype html>');
 const { address, close } = await serve({ app: folder, data });
-const browser = await launch(modules), page = await browser.newPage(), said = [];
+const browser = await launch(modules, kGpuArguments), page = await browser.newPage(), said = [];
 page.on('pageerror', error => said.push(error.message));
 page.on('console', message => {
   if (process.env.VERBOSE) console.log(message.text());
@@ -40,6 +40,22 @@ const cases = {
       assert.ok(found.fromStock > 1000, `${url}: three alone differs by ${found.fromStock} bytes only`);
       assert.ok(found.before > 0 && (stay ? found.after > 0 && found.after < found.before : found.after === 0), url);
       assert.ok(found.decided.length > 0 && found.decided.every(count => count >= found.before), url);
+    }
+  },
+
+  async itDrawsWithWebGPURendererToo() {
+    for (const forceWebGL of [false, true]) {
+      if (!forceWebGL && !await page.evaluate(async () => !!await navigator.gpu?.requestAdapter())) {
+        console.log('no WebGPU in this Chromium: only its WebGL 2 backend is tested');
+        continue;
+      }
+      const found = await call('besideNodes', kMirror, forceWebGL);
+      console.log(JSON.stringify(found));
+      assert.equal(found.webgpu, !forceWebGL);
+      assert.ok(found.pixels > 10000, 'the model is drawn');
+      assert.equal(found.fromOurs, 0);
+      assert.ok(found.fromStock > 1000, `three alone differs by ${found.fromStock} bytes only`);
+      assert.ok(found.before > 0 && found.after === 0 && found.decided[0] > 0);
     }
   },
 

@@ -392,15 +392,15 @@ const cases = {
     assert.equal(notes.length, 1);
   },
 
-  // Without the shader text, which is 9 KB. Bundlers compress and leave out as here. 15,530: it was 15,360 before hooks and
-  // clones of a material could have a relief, too, before or after the frame.
+  // Without the shader text, which is 9 KB. Bundlers compress and leave out as here. It was 15,530 before directions of
+  // anisotropy were compared, and coats and mirrored meshes corrected where tangents stay.
   async theCodeIsSmall() {
     const esbuild = require('esbuild'), entry = path.join(folder, 'node_modules/cotan/three/index.js');
     const { outputFiles: [{ contents }] } = await esbuild.build({ entryPoints: [entry], bundle: true, minify: true, format: 'esm', write: false, external: ['three'],
       plugins: [{ name: 'text', setup: (build) => { build.onResolve({ filter: /shader_text/ }, () => ({ path: './shader_text.js', external: true })); } }] });
     const size = gzipSync(contents, { level: 9 }).length;
     console.log(`${size} bytes`);
-    assert.ok(size > 1000 && size <= 15545, `${size} bytes`);
+    assert.ok(size > 1000 && size <= 16160, `${size} bytes`);
   },
 };
 await runCases(cases, only);

@@ -201,6 +201,29 @@ export function degreesBetween(place, frames, meaning, texels, green) {
   return found;
 }
 
+const kU = new Float64Array(3), kAcross = new Float64Array(3);
+
+// Writes the direction of constant v, or of 45 degrees between it and the one across it (`across`: the sign of b).
+function groove({ n }, k, frames, across, out) {
+  cross(kU, 0, frames, 6 * k + 3, n, 3 * k);
+  normalise(kU, 0);
+  cross(kAcross, 0, n, 3 * k, kU, 0); // on the side of b
+  combine(out, 0, kU, 0, dot(kU, 0, frames, 6 * k) < 0 ? -1 : 1, kAcross, 0, across);
+}
+
+// Degrees between the directions of anisotropy that two frames make, regardless of their signs. across: 0 if the directions are
+// those of u, otherwise 1, or -1 if the bitangents of the second frame run against those of the first.
+export function degreesOfGrooves(place, frames, meaning, across) {
+  const found = new Float64Array(place.count), a = new Float64Array(3), b = new Float64Array(3);
+  for (let k = 0; k < place.count; ++k) {
+    groove(place, k, frames, across, a);
+    groove(place, k, meaning, Math.abs(across), b);
+    cross(kFace, 0, a, 0, b, 0);
+    found[k] = Math.atan2(Math.sqrt(dot(kFace, 0, kFace, 0)), Math.abs(dot(a, 0, b, 0))) * 180 / Math.PI;
+  }
+  return found;
+}
+
 // { points, mean, percentile95, percentile99, maximum } of the values that are finite; NaN without any.
 export function summaryOf(values) {
   const sorted = Float64Array.from(values).filter(Number.isFinite).sort(), points = sorted.length;

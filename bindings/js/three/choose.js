@@ -1,8 +1,8 @@
 // Chooses the frame that reads a map without the tangents of its file, primitive by primitive, by measurement. The same rule
 // as in the library (src/bake/lint/choose_frames.cpp).
 import { ObjectSpaceNormalMap } from 'three';
-import { degreesBetween, placesOf, Sample, summaryOf, texelsAt } from './candidates.js';
-import { guessedFrame, meansTangents, namedFrame } from './frames.js';
+import { degreesBetween, degreesOfGrooves, placesOf, Sample, summaryOf, texelsAt } from './candidates.js';
+import { guessedFrame, isGrooved, mapOf, meansTangents, namedFrame, standsAlone } from './frames.js';
 import { bitangentAreas, ofGltf } from './greens.js';
 import { numbersOf, readingOf, turns, uvMatrixOf } from './mesh_data.js';
 import { addStretch, pointsOfEach, surfaceOf } from './sampling.js';
@@ -14,9 +14,9 @@ const kScales = { normalScale: 'normalMap', clearcoatNormalScale: 'clearcoatNorm
 
 export const scalesOf = material => Object.entries(kScales).filter(([name]) => material[name]);
 
-// The maps of a material that read a frame, as [map, scale]: first the one whose uv the frame is for.
+// The maps of a material that are read with the frame of mapOf(material), as [map, scale, name].
 function mapsOf(material) {
-  return scalesOf(material).filter(([name, map]) => material[map] && (name !== 'normalScale' || material.normalMapType !== ObjectSpaceNormalMap))
+  return scalesOf(material).filter(([name, map]) => material[map] && !standsAlone(material, material[map]) && (name !== 'normalScale' || material.normalMapType !== ObjectSpaceNormalMap))
     .map(([name, map]) => [material[map], material[name], name]);
 }
 
@@ -90,18 +90,18 @@ export class Chooser {
   }
 
   #decided(primitive) {
-    const { geometry, material, stored } = primitive, [first] = mapsOf(material);
+    const { geometry, material, stored } = primitive, [first] = mapsOf(material), map = mapOf(material);
     const named = namedFrame(material, this.warn, geometry);
     const decision = (frame, meaning, reason, more) => ({ frame, keepsTangents: false, meaning, reason, candidates: [], ...more });
-    if (!first) return decision(named ?? guessedFrame(geometry, undefined, stored), 'none', 'noMap');
+    if (!first && !isGrooved(material)) return decision(named ?? guessedFrame(geometry, map, stored), 'none', 'noMap');
     if (named && !meansTangents(material, geometry)) return decision(named, 'named', 'named');
-    const guessed = guessedFrame(geometry, first[0], stored);
-    if (guessed !== 'orthonormal') return decision(guessed, 'painted', 'painted');
+    const guessed = first && guessedFrame(geometry, map, stored);
+    if (first && guessed !== 'orthonormal') return decision(guessed, 'painted', 'painted');
     // Flat surfaces have no tangents in three, nor in glTF.
     const meaning = stored && material.flatShading !== true ? 'stored' : 'mikktspace';
     const kept = meaning === 'stored' ? { frame: 'mikktspace', keepsTangents: true } : {};
-    const found = primitive.sampleFor(first[0], this.#points);
-    const why = !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area both in space and in uv' : texelsOf(first[0]).why;
+    const found = primitive.sampleFor(map, this.#points);
+    const why = !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area both in space and in uv' : first && texelsOf(first[0]).why;
     if (why) return decision('orthonormal', meaning, 'notJudged', { ...kept, why });
     const few = this.#measureOf(primitive, found.few(), meaning), all = this.#measureOf(primitive, found, meaning), candidates = [], { limits } = this;
     // Some points tell if they are far from the limits.
@@ -118,19 +118,23 @@ export class Chooser {
     return decision('orthonormal', meaning, 'keeps', { ...kept, candidates });
   }
 
-  // A function that compares a frame with what the maps mean. The largest error counts of those at each stretch and map.
+  // A function that compares a frame with what the maps mean: normals, and directions of anisotropy. The largest error counts
+  // of those at each stretch and map.
   #measureOf(primitive, sample, meaning) {
-    const { material } = primitive, [[first]] = mapsOf(material);
-    const shown = mapsOf(material).filter(([map, scale, name]) => readingOf(map) === readingOf(first) && Math.max(Math.abs(scale.x), Math.abs(scale.y)) > kFlattened
+    const { material } = primitive, map = mapOf(material);
+    const shown = mapsOf(material).filter(([map, scale, name]) => Math.max(Math.abs(scale.x), Math.abs(scale.y)) > kFlattened
       && (name === 'normalScale' || material.clearcoat > 0) && !texelsOf(map).why);
-    const green = meaning === 'stored' ? greenAlongV(first, this.areas(primitive.meshes[0], material, primitive.group ?? 0, first)) : 1;
+    const areas = meaning === 'stored' && this.areas(primitive.meshes[0], material, primitive.group ?? 0, map), green = areas && shown.length ? greenAlongV(map, areas) : 1;
+    const across = material.anisotropyRotation || material.anisotropyMap ? (areas.against > areas.along ? -1 : 1) : 0;
     let parts;
     return frame => {
-      parts ??= sample.places.flatMap(place => {
-        const meant = sample.framesAt(place, meaning);
-        return shown.map(([map, scale]) => ({ place, meant, texels: texelsAt(place, map, texelsOf(map), scale.x, Math.abs(scale.y)) }));
+      parts ??= sample.places.map(place => ({
+        place, meant: sample.framesAt(place, meaning), texels: shown.map(([map, scale]) => texelsAt(place, map, texelsOf(map), scale.x, Math.abs(scale.y))),
+      }));
+      const found = parts.flatMap(({ place, meant, texels }) => {
+        const frames = sample.framesAt(place, frame), errors = texels.map(one => degreesBetween(place, frames, meant, one, green));
+        return [...errors, ...isGrooved(material) ? [degreesOfGrooves(place, frames, meant, across)] : []].map(summaryOf);
       });
-      const found = parts.map(({ place, meant, texels }) => summaryOf(degreesBetween(place, sample.framesAt(place, frame), meant, texels, green)));
       if (!found.length) return summaryOf([0]); // flattened
       return found.reduce((a, b) => ({ ...b.mean > a.mean ? b : a, percentile99: Math.max(a.percentile99, b.percentile99), maximum: Math.max(a.maximum, b.maximum) }));
     };

@@ -1,13 +1,20 @@
 // Chooses the frame that a normal map is read with.
 import { choice } from '../src/arrays.js';
-import { transformedUv, uvNameOf } from './mesh_data.js';
+import { readingOf, transformedUv, uvNameOf } from './mesh_data.js';
 import { ofGltf } from './greens.js';
 
 export const kSupported = ['cotangent', 'orthonormal', 'smooth', 'triangle'];
 export const kFrames = ['auto', ...kSupported];
 export const kKey = 'cotanFrame'; // in a material's userData, which are the extras of glTF
 
-export const mapOf = material => material.normalMap ?? material.clearcoatNormalMap;
+export const isGrooved = material => material.anisotropy > 0;
+
+// The map whose texture coordinates tangents and the direction of anisotropy are for: that of bumps, else of anisotropy, else of
+// the coat. Without any it is set 0.
+export const mapOf = material => material.normalMap ?? (isGrooved(material) ? material.anisotropyMap : null) ?? material.clearcoatNormalMap;
+
+// Whether a map of the material has other texture coordinates than mapOf(): then it needs a frame of its own.
+export const standsAlone = (material, map) => !!map && readingOf(map) !== readingOf(mapOf(material));
 
 // What a file says about a map's frame: of the primitive, else of the material.
 const nameIn = (material, geometry) => geometry?.userData?.[kKey] ?? material.userData?.[kKey];

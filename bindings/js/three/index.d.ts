@@ -62,7 +62,7 @@ export interface Decision {
   keepsTangents: boolean;
   /** What the map is taken to mean: `named`: the frame that the file or the caller names; `stored`: what the tangents of the
    * mesh show; `mikktspace`: MikkTSpace over its texture coordinates, as glTF says; `painted`: nothing that depends on a
-   * model; `none`: there is no map. */
+   * model; `none`: there is no map, and no anisotropy. */
   meaning: 'named' | 'stored' | 'mikktspace' | 'painted' | 'none';
   /** `fits`: the first candidate within the limits; `keeps`: no candidate is, so that what is there stays; `notJudged`: the
    * same, because nothing could be compared (`why`); `shared`: as another material of the mesh needs; `named`: as the file
@@ -85,12 +85,15 @@ export interface LoadedModel {
  * and anisotropy. Returns one decision for each mesh and material.
  *
  * For each mesh, frames are compared with what its map means (`Decision.meaning`) by the angle between perturbed normals, with
- * the texels of the map: `orthonormal`, `triangle`, `smooth`, then MikkTSpace tangents made here, in 8 bytes a vertex. The
+ * the texels of the map, and by the angle between directions of anisotropy: `orthonormal`, `triangle`, `smooth`, then MikkTSpace tangents made here, in 8 bytes a vertex. The
  * first one within `maxDegrees` is taken. If none is, the tangents of the mesh stay as they are, and a note says what they
  * cost. Loaded tangents that MikkTSpace makes, too, are drawn, in 8 bytes. Tangents also stay if the map cannot be read:
  * compressed textures, and images where there is no OffscreenCanvas. Meshes without tangents then get `orthonormal`. Images
  * are read once, with at most 512 x 512 texels. Skinned meshes are judged as they are posed now, and instances by the worst of
  * the first eight that are stretched differently.
+ *
+ * Each map is read with its own texture coordinates. The direction of anisotropy follows those of the normal map, else those of
+ * the anisotropy map. Tangents belong to the same ones: a coat whose map has others gets `orthonormal`, also where they stay.
  *
  * The same file always gives the same decisions, and a second call changes nothing. Correct for mirrored meshes and both sides
  * of faces, and without tangents also for mirrored instances and render targets with y down. Sets the sign of `normalScale.y`

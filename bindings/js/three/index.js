@@ -3,7 +3,7 @@ import { REVISION, ShaderChunk } from 'three';
 import { CotanError } from '../src/errors.js';
 import { frameFor } from './frames.js';
 import { put, writeWith } from './hooks.js';
-import { keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
+import { kCoatAlone, keepInClones, kTangents, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
 import { essl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
 
@@ -11,7 +11,7 @@ export { CotanError };
 
 // Removes tangents of `target` where nobody can see it, and makes its materials use frames of Cotan. See index.d.ts.
 export function untangle(target, options) {
-  return untangleMeshes(target, untangleOptions(options), { provoking: 'last' }, replaceFrame, restoreFrame);
+  return untangleMeshes(target, untangleOptions(options), { provoking: 'last' }, setFrame, restoreFrame);
 }
 
 // untangle() as a plugin: loader.register(untangled()).
@@ -20,24 +20,28 @@ export const untangled = options => {
   return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { (gltf.userData ??= {}).cotan = untangle(gltf, options); } });
 };
 
-const frames = new WeakMap(); // by material: { frame, against }. frame: `mikktspace` where three's own is drawn again
+const frames = new WeakMap(); // by material: { frame, against, inverted }. frame: `mikktspace` where three's own is drawn again, or as kTangents
 
 // Replaces the frame of one material and nothing else: removes no tangents and flips no scale. The user's hooks stay,
 // even if set later, and clone() keeps the frame.
 // from: the material whose hooks are taken over, and whose frame if none is requested.
 export function replaceFrame(material, options) {
-  checkThree();
   const { frame: requested, against, from } = replaceOptions(material, options, { from: material });
   const taken = requested === undefined && from !== material && frames.get(from)?.frame;
-  frames.set(material, { frame: taken || frameFor(material, requested), against });
+  return setFrame(material, { frame: taken || frameFor(material, requested), against, from });
+}
+
+function setFrame(material, { frame, against, inverted = false, from }) {
+  checkThree();
+  frames.set(material, { frame, against, inverted });
   writeWith(material, 'frame', keyOf, writeFrame, from);
-  return keepInClones(material, (clone, source) => replaceFrame(clone, frames.get(source)));
+  return keepInClones(material, (clone, source) => setFrame(clone, frames.get(source)));
 }
 
 // Makes a material with a replaced frame draw three's own again.
 function restoreFrame(material) {
   if (!frames.has(material)) return;
-  frames.get(material).frame = 'mikktspace';
+  Object.assign(frames.get(material), { frame: 'mikktspace', inverted: false });
   material.needsUpdate = true;
   keepInClones(material, () => {});
 }
@@ -45,8 +49,10 @@ function restoreFrame(material) {
 const keyOf = material => Object.values(frames.get(material)).join();
 
 function writeFrame(shader, material) {
-  const { frame, against } = frames.get(material);
-  if (frame === 'mikktspace') return;
+  const { frame, against, inverted } = frames.get(material);
+  if (frame === kCoatAlone) patchCoat(shader, material);
+  if (inverted) put(shader, 'fragmentShader', kMaps, `${kMaps}\n#if defined( USE_ANISOTROPY ) && defined( USE_TANGENT )\ntbn[ 1 ] = - tbn[ 1 ];\n#endif\n`, material);
+  if (['mikktspace', kCoatAlone, kTangents].includes(frame)) return;
   if (shader.vertexTangents)
     console.warn(`Cotan: a mesh with the material "${material.name || material.type}" has tangents, so three does not use Cotan's `
       + 'frame: call untangle() on it');
@@ -60,20 +66,41 @@ function checkThree() {
     throw new CotanError('unavailable', `three: expected version 0.160 or later with getTangentFrame in its shaders, found ${REVISION}`);
 }
 
+const kMaps = '#include <normal_fragment_maps>'; // after this chunk three uses its frame only for anisotropy
 const kInclude = '#include <normalmap_pars_fragment>', kFunction = /mat3 getTangentFrame\([^{]*\{[^}]*\}/;
 
 function patchFragment(shader, material, { frame, against }) {
   const chunk = { text: ShaderChunk.normalmap_pars_fragment }, stored = kStoredFrames[frame];
   put(chunk, 'text', kFunction, `${essl[frame]}\n${stored ? stored.frame : frameOf(frame)}`, material);
   put(shader, 'fragmentShader', kInclude, (stored ? stored.varyings('in') : '') + chunk.text + kAnisotropyFrame, material);
-  // After this chunk three uses its frame only for anisotropy.
-  const maps = '#include <normal_fragment_maps>';
-  put(shader, 'fragmentShader', maps, `${maps}
+  put(shader, 'fragmentShader', kMaps, `${kMaps}
 #if defined( USE_ANISOTROPY ) && ! defined( USE_TANGENT )
+#if defined( USE_ANISOTROPYMAP ) && ! defined( USE_NORMALMAP )
+tbn = getTangentFrame( - vViewPosition, nonPerturbedNormal, vAnisotropyMapUv );
+${kBothSides('tbn')}
+#endif
 tbn = cotanAnisotropyFrame( tbn, nonPerturbedNormal, ${against ? '-1.0' : '1.0'} );
 #endif
 `, material);
 }
+
+// Makes three, which has the tangents of another map, use a frame for the coat.
+function patchCoat(shader, material) {
+  const begin = '#include <normal_fragment_begin>';
+  put(shader, 'fragmentShader', kInclude, `${kInclude}\n${essl.orthonormal}\n${frameOf('orthonormal').replace('getTangentFrame', 'cotanCoatFrame')}\n`, material);
+  put(shader, 'fragmentShader', begin, `${begin}
+#if defined( USE_CLEARCOAT_NORMALMAP ) && defined( USE_TANGENT )
+tbn2 = cotanCoatFrame( - vViewPosition, normal, vClearcoatNormalMapUv );
+${kBothSides('tbn2')}
+#endif
+`, material);
+}
+
+// What three does with every frame.
+const kBothSides = name => `#ifdef DOUBLE_SIDED
+${name}[ 0 ] *= faceDirection;
+${name}[ 1 ] *= faceDirection;
+#endif`;
 
 // three passes -vViewPosition, the position relative to the eye.
 const frameOf = name => `mat3 getTangentFrame( vec3 position, vec3 n, vec2 uv ) {

@@ -5,7 +5,7 @@ import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { usage, wordsFor } from '../src/errors.js';
 import { Chooser, greenAlongV, markGenerated, scalesOf, storedIn } from './choose.js';
 import { keepInClones as keep } from './clones.js';
-import { kFrames, kKey, mapOf, meansTangents, namedFrame } from './frames.js';
+import { isGrooved, kFrames, kKey, mapOf, meansTangents, namedFrame, standsAlone } from './frames.js';
 import { withVertices } from './gathered.js';
 import { GreenNotes, ofGltf } from './greens.js';
 import { numbersOf, readingOf, turns, uvMatrixOf, uvNameOf } from './mesh_data.js';
@@ -13,11 +13,15 @@ import { packed, withTangents } from './mikktspace.js';
 import { kSmoothAttributes, withSmooth } from './smooth.js';
 import { kTriangleAttribute, withTriangles } from './triangles.js';
 
+// Instead of a frame, where three draws tangents: what is corrected. `inverted` says whether three inverts the bitangents, by
+// which the directions of anisotropy turn. kCoatAlone: the coat gets `orthonormal` of its own texture coordinates, too.
+export const kCoatAlone = 'coat', kTangents = 'tangents';
+
 const kConventions = ['gltf', 'directx'];
 const kMaxDegrees = 0.3;
 
-// State of materials that we have set: { frame, against, wants, includes }. frame: one of kSupported, or `mikktspace` where
-// three reads tangents by itself. against: whether bitangents run against v. wants: for each scale, whether green in the file
+// State of materials that we have set: { frame, against, corrected, wants, includes }. frame: one of kSupported, or `mikktspace`
+// where three reads tangents by itself. corrected: as kTangents, if anything is. against: whether bitangents run against v. wants: for each scale, whether green in the file
 // points along v (1) or against it (-1). includes: the sign that the scale has been multiplied with, for the bitangents that
 // the material is drawn with.
 const known = new WeakMap();
@@ -88,7 +92,8 @@ export function untangleMeshes(target, o, { provoking = 'last', instances = true
 
 // ---- decisions ----------------------------------------------------------------------------------
 
-const mapsOf = ({ normalMap, clearcoatNormalMap }) => [normalMap, clearcoatNormalMap];
+// The maps of a material that read a frame.
+const mapsOf = material => [material.normalMap, material.clearcoatNormalMap, isGrooved(material) ? mapOf(material) : null];
 
 function remember(geometry, material, decision) {
   if (!decided.has(geometry)) decided.set(geometry, new WeakMap());
@@ -185,9 +190,9 @@ const inverts = mesh => !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 
 
 // Tangents that were loaded are drawn as they are. Others are made, for mirrored meshes with the other w.
 function giveTangents(mesh, materials, decisions, all) {
-  const map = firstMapOf(materials), { geometry } = mesh;
+  const map = firstMapOf(materials), { geometry } = mesh, gltf = map ? ofGltf(map) : all.loaded;
   if (drawsStored(mesh, map, decisions) || geometry.attributes.tangent && !storedIn(geometry)) return;
-  mesh.geometry = made(mesh, ['mikktspace', readingOf(map), inverts(mesh)], all, () => markGenerated(withTangents(geometry, map, ofGltf(map) !== inverts(mesh))));
+  mesh.geometry = made(mesh, ['mikktspace', readingOf(map), inverts(mesh)], all, () => markGenerated(withTangents(geometry, map, gltf !== inverts(mesh))));
 }
 
 // Adds the attributes that the frames of a mesh read to its geometry.
@@ -246,14 +251,15 @@ function freeTogether(meshes, made) {
 
 // ---- materials ----------------------------------------------------------------------------------
 
-// { wants, includes, factors, against } for a material: see `known`; factors: by scale, the sign to multiply the current scale
+// { wants, includes, factors, against, inverted } for a material: see `known`, kTangents; factors: by scale, the sign to multiply the current scale
 // with, so that it includes the new one. tangents, reads: whether three draws tangents, and whether they are the stored ones.
 function signsOf(mesh, material, k, { tangents, reads }, { o, chooser, greens, counted, loaded, earlier }) {
   const stored = !!storedIn(mesh.geometry), wants = {}, includes = {}, factors = {}, before = earlier.get(material), means = meansTangents(material, mesh.geometry);
   for (const [name, mapName] of scalesOf(material)) {
     const map = material[mapName], gltf = map ? ofGltf(map) : loaded, initial = gltf && !stored ? -1 : 1; // GLTFLoader flips it if there are no tangents
-    let shown = reads && !o.convention ? undefined : before?.wants[name] ?? initial; // which way tangents and uv say
-    if (stored && (!reads || o.convention)) {
+    const alone = standsAlone(material, map); // tangents say nothing of it
+    let shown = alone ? before?.wants[name] : reads && !o.convention ? undefined : before?.wants[name] ?? initial; // which way tangents and uv say
+    if (stored && !alone && (!reads || o.convention)) {
       const areas = chooser.areas(mesh, material, k, map);
       shown = !gltf || !map ? areas.against > areas.along || areas.along === 0 && gltf ? -1 : 1 : means ? greenAlongV(map, areas) : -1;
       const use = [mesh.geometry.uuid, map?.uuid, k].join();
@@ -263,11 +269,11 @@ function signsOf(mesh, material, k, { tangents, reads }, { o, chooser, greens, c
     // v runs down the image in glTF
     wants[name] = o.convention && map ? ((o.convention === 'gltf') === (gltf || map.flipY === false) ? -1 : 1) : shown ?? (gltf ? -1 : 1);
     // Green is right as it is for stored bitangents, unless three inverts them; those that are made run against v for a glTF.
-    includes[name] = reads ? (o.convention ? wants[name] * shown : 1) * (inverts(mesh) ? -1 : 1) : tangents && gltf ? -wants[name] : wants[name];
+    includes[name] = alone ? wants[name] : reads ? (o.convention ? wants[name] * shown : 1) * (inverts(mesh) ? -1 : 1) : tangents && gltf ? -wants[name] : wants[name];
     factors[name] = (before?.includes[name] ?? initial) * includes[name];
   }
   const map = mapOf(material), gltf = loaded || ofGltf(map);
-  return { wants, includes, factors, against: stored && !tangents ? runsAgainst(chooser.areas(mesh, material, k, map), map, gltf) : before?.against ?? gltf };
+  return { wants, includes, factors, inverted: reads && isGrooved(material) && inverts(mesh), against: stored && !tangents ? runsAgainst(chooser.areas(mesh, material, k, map), map, gltf) : before?.against ?? gltf };
 }
 
 // Whether stored bitangents run against increasing v as the map is read. Those of a glTF are for v before its transform.
@@ -278,9 +284,10 @@ function runsAgainst({ along, against }, map, gltf) {
 
 // The material with the given settings: the original for the first settings that meshes need, copies for others. same:
 // whether an earlier call has set them.
-function copyFor(material, { frame, against, wants, includes, factors }, same, { copies, earlier, replace, restore }) {
+function copyFor(material, { frame, against, inverted, wants, includes, factors }, same, { copies, earlier, replace, restore }) {
   if (!copies.has(material)) copies.set(material, { made: new Map(), scales: Object.fromEntries(Object.keys(factors).map(name => [name, material[name].clone()])) });
-  const { made, scales } = copies.get(material), tangents = frame === 'mikktspace', key = [frame, tangents || against, ...Object.values(factors)].join();
+  const { made, scales } = copies.get(material), tangents = frame === 'mikktspace', key = [frame, tangents ? inverted : against, ...Object.values(factors)].join();
+  const corrected = tangents && (standsAlone(material, material.clearcoatNormalMap) ? kCoatAlone : inverted ? kTangents : undefined);
   if (!made.has(key)) {
     const before = earlier.get(material), switches = before && (before.frame === 'mikktspace') !== tangents; // meshes elsewhere may have it as it is
     const copy = made.size === 0 && !switches ? material : material.clone();
@@ -290,11 +297,11 @@ function copyFor(material, { frame, against, wants, includes, factors }, same, {
       copy[name].copy(scales[name]);
       copy[name].y *= factor;
     }
-    known.set(copy, { frame, against, wants, includes });
+    known.set(copy, { frame, against, corrected, wants, includes });
     if (same && copy === material) return copy;
-    if (!tangents) replace(copy, { frame, against, from: material });
+    if (!tangents || corrected) replace(copy, { frame: corrected || frame, against, inverted, from: material });
     else {
-      if (switches) restore(copy);
+      if (switches || before?.corrected) restore(copy);
       else if (copy !== material && Object.hasOwn(material, 'onBeforeCompile')) copy.onBeforeCompile = material.onBeforeCompile;
       if (Object.values(factors).some(factor => factor < 0)) keepInClones(copy, () => {});
     }

@@ -4,7 +4,7 @@ import * as three from 'three/webgpu';
 import { choice } from '../src/arrays.js';
 import { CotanError, usage, wordsFor } from '../src/errors.js';
 import { frameFor, kSupported } from './frames.js';
-import { keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
+import { kCoatAlone, keepInClones, kTangents, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
 import { addToKey } from './node_keys.js';
 import { essl, wgsl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
@@ -13,7 +13,7 @@ export { CotanError };
 
 // Destructured instead of imported by name, so that an older three gives the error below instead of a missing import.
 const {
-  Fn, anisotropyB, anisotropyT, attribute, cameraViewMatrix, code, glslFn, materialAnisotropy, materialReference, modelNormalMatrix, modelViewMatrix, negateOnBackSide,
+  Fn, TBNViewMatrix, anisotropyB, anisotropyT, attribute, cameraViewMatrix, code, glslFn, materialAnisotropy, materialReference, modelNormalMatrix, modelViewMatrix, negateOnBackSide,
   normalViewGeometry, positionView, texture, uv, varying, vec2, vec4, wgslFn,
 } = tsl;
 const { InterpolationSamplingMode, InterpolationSamplingType, ObjectSpaceNormalMap, RED_GREEN_RGTC2_Format, RG11_EAC_Format, RGFormat } = three;
@@ -26,7 +26,7 @@ export function untangle(target, options) {
   if (o.frame === 'triangle' && !renderer?.backend)
     throw usage('options.renderer: expected a renderer, after `await renderer.init()`, for the frame triangle; found none');
   const provoking = renderer?.backend?.isWebGPUBackend ? 'first' : 'last';
-  return untangleMeshes(target, o, { provoking, instances: false, deformed: false, triangles: !!renderer?.backend }, replaceFrame, restoreFrame);
+  return untangleMeshes(target, o, { provoking, instances: false, deformed: false, triangles: !!renderer?.backend }, setFrame, restoreFrame);
 }
 
 // untangle() as a plugin: loader.register(untangled()).
@@ -36,24 +36,30 @@ export const untangled = options => {
 };
 
 const ours = new WeakSet();  // nodes that replaceFrame() made
-const chosen = new WeakMap();  // by material: { frame, against }
+const chosen = new WeakMap();  // by material: { frame, against, inverted }. frame: may be as kTangents
 
 // Replaces the frame of one material and nothing else: removes no tangents, flips no scale, keeps nodes of the user.
 export function replaceFrame(material, options) {
-  const { frame: requested, against } = replaceOptions(material, options, { from: undefined }), frame = frameFor(material, requested);
-  const { normalMap, clearcoatNormalMap } = material;
+  const { frame, against } = replaceOptions(material, options, { from: undefined });
+  return setFrame(material, { frame: frameFor(material, frame), against });
+}
+
+function setFrame(material, { frame, against, inverted = false }) {
+  const { normalMap, clearcoatNormalMap } = material, coatAlone = frame === kCoatAlone, tangents = coatAlone || frame === kTangents;
+  if (tangents) restoreFrame(material);
   const put = (name, map, scale) => {
     if (material[name] && !ours.has(material[name])) return;
-    material[name] = perturbed(mapOfMaterial(map), materialReference(scale, 'vec2'), frame);
+    material[name] = perturbed(mapOfMaterial(map), materialReference(scale, 'vec2'), coatAlone ? 'orthonormal' : frame);
     ours.add(material[name]);
   };
-  if (normalMap && material.normalMapType !== ObjectSpaceNormalMap) put('normalNode', 'normalMap', 'normalScale');
-  if (clearcoatNormalMap) put('clearcoatNormalNode', 'clearcoatNormalMap', 'clearcoatNormalScale');
-  if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, against);
+  if (normalMap && !tangents && material.normalMapType !== ObjectSpaceNormalMap) put('normalNode', 'normalMap', 'normalScale');
+  if (clearcoatNormalMap && frame !== kTangents) put('clearcoatNormalNode', 'clearcoatNormalMap', 'clearcoatNormalScale');
+  if (inverted) material.setupVariants = variantsInverted;
+  else if (material.anisotropy !== undefined && !tangents) material.setupVariants = variantsWith(frame, against);
   material.needsUpdate = true;
-  chosen.set(material, { frame, against });
+  chosen.set(material, { frame, against, inverted });
   addToKey(material, 'frame', keyOf);
-  return keepInClones(material, (clone, source) => replaceFrame(clone, chosen.get(source)));
+  return keepInClones(material, (clone, source) => setFrame(clone, chosen.get(source)));
 }
 
 // Makes a material with a replaced frame draw three's own again.
@@ -61,7 +67,7 @@ function restoreFrame(material) {
   if (!chosen.has(material)) return;
   for (const name of ['normalNode', 'clearcoatNormalNode']) if (ours.has(material[name])) material[name] = null;
   delete material.setupVariants;
-  chosen.get(material).frame = 'mikktspace';
+  Object.assign(chosen.get(material), { frame: 'mikktspace', inverted: false });
   material.needsUpdate = true;
   keepInClones(material, () => {});
 }
@@ -69,11 +75,11 @@ function restoreFrame(material) {
 // What three leaves out of the key: the nodes of a material that is no node material, and what ours and setupVariants
 // depend on. Our nodes are equal for all maps of one kind.
 function keyOf(material) {
-  const { frame, against } = chosen.get(material);
+  const { frame, against, inverted } = chosen.get(material);
   const nodes = material.isNodeMaterial ? [] : Object.entries(material).filter(([, value]) => value?.isNode)
     .flatMap(([name, node]) => [name, ours.has(node) ? '' : node.getCacheKey(true)]);
   const kinds = [material.normalMap, material.clearcoatNormalMap].map(map => map && hasTwoChannels(map));
-  return [frame, against, ...kinds, ...nodes].join();
+  return [frame, against, inverted, ...kinds, ...nodes].join();
 }
 
 // The perturbed unit normal in view space. The tangent-space map is sampled with its own uv set and matrix.
@@ -135,18 +141,34 @@ function frameOf(frame, read, builder) {
   return { t: negateOnBackSide(f[0]), b: negateOnBackSide(f[1]), n };
 }
 
+// A setupVariants for MeshPhysicalNodeMaterial that inverts three's bitangents in the directions of anisotropy.
+function variantsInverted(builder) {
+  Object.getPrototypeOf(this).setupVariants.call(this, builder);
+  if (!this.useAnisotropy || !builder.geometry.hasAttribute('tangent')) return;
+  const t = TBNViewMatrix[0], b = TBNViewMatrix[1].negate(), v = directionOf(this);
+  anisotropyT.assign(t.mul(v.x).add(b.mul(v.y)));
+  anisotropyB.assign(b.mul(v.x).sub(t.mul(v.y)));
+}
+
+// The unit direction of anisotropy from u towards v.
+function directionOf(material) {
+  const v = (material.anisotropyNode ? vec2(material.anisotropyNode) : materialAnisotropy).toVar();
+  v.assign(v.length().greaterThan(0).select(v.normalize(), vec2(1, 0)));
+  return v;
+}
+
 // A setupVariants for MeshPhysicalNodeMaterial that sets orthonormal directions of anisotropy in the surface.
 function variantsWith(frame, against) {
   return function setupVariants(builder) {
     Object.getPrototypeOf(this).setupVariants.call(this, builder);
     if (!this.useAnisotropy) return;
-    const read = builder.material.normalMap ? mapOfMaterial('normalMap')(builder) : null; // it may have gone meanwhile
+    const map = ['normalMap', 'anisotropyMap', 'clearcoatNormalMap'].find(name => builder.material[name]); // it may have gone meanwhile
+    const read = map ? mapOfMaterial(map)(builder) : null;
     const { t, b, n } = frameOf(frame, read, builder);
     const along = t.dot(b.cross(n)).sign().mul(b.cross(n)).normalize().toVar();
     const across = n.cross(along).toVar();
     across.mulAssign(across.dot(b).sign().mul(against ? -1 : 1));
-    const v = (this.anisotropyNode ? vec2(this.anisotropyNode) : materialAnisotropy).toVar();
-    v.assign(v.length().greaterThan(0).select(v.normalize(), vec2(1, 0)));
+    const v = directionOf(this);
     anisotropyT.assign(along.mul(v.x).add(across.mul(v.y)));
     anisotropyB.assign(across.mul(v.x).sub(along.mul(v.y)));
   };
