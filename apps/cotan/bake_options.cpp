@@ -9,6 +9,7 @@
 #include "cotan/convention.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
+#include "maps/textures/texel_code.hpp"
 #include "parse.hpp"
 #include "picture_options.hpp"
 #include "scene/normal_maps.hpp"
