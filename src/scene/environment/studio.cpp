@@ -39,8 +39,9 @@ struct SoftBox {
 };
 
 // Grey walls that darken upwards, a floor with a pool of light around the model, a large box on the front left, a lower
-// one on the right, a ceiling light, two strips at the sides, slightly behind, for rim light, and a narrow card in front
-// on the floor: seen from slightly above, upright metals reflect its edges, which shows their relief. Models face +z.
+// one on the right, a ceiling light, two strips at the sides, slightly behind, for rim light, and a narrow card in
+// front on the floor: seen from slightly above, upright metals reflect its edges, which shows their relief. Models face
+// +z.
 glm::vec3 studio(glm::vec3 d)
 {
     static const SoftBox key{glm::vec3(-0.75f, 0.62f, 0.75f), 0.55f, 0.5f, 0.05f};
