@@ -88,6 +88,13 @@ Result<Camera> orbiting(const std::string& text, const Scene& scene, int width, 
     return orbitCamera(scene, azimuth, elevation, width, height);
 }
 
+template<class Number> std::string digitsOf(Number value)
+{
+    std::array<char, 64> digits{};
+    return {digits.data(),
+            std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr}; // shortest exact form
+}
+
 } // namespace
 
 Result<Camera> parseCamera(const std::string& text, const Scene& scene, int width, int height)
@@ -112,11 +119,7 @@ Result<Camera> parseCamera(const std::string& text, const Scene& scene, int widt
 std::string formatCamera(const Camera& camera)
 {
     std::string text;
-    const auto add = [&](auto value) {
-        std::array<char, 64> digits{};
-        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr; // shortest exact form
-        text += (text.empty() || text.back() == 'h' ? "" : ",") + std::string(digits.data(), end);
-    };
+    const auto add = [&](auto value) { text += (text.empty() || text.back() == 'h' ? "" : ",") + digitsOf(value); };
     for (const glm::vec3& point : {camera.eye, camera.target})
         for (int i = 0; i < 3; ++i)
             add(point[i]);
@@ -125,9 +128,11 @@ std::string formatCamera(const Camera& camera)
         add(camera.verticalExtent);
     } else {
         const double degrees = double(camera.verticalFieldOfView) / kRadians;
-        const auto rounded = float(degrees); // 45 instead of 44.99999100695533, where both give the same camera
-        if (float(rounded * kRadians) == camera.verticalFieldOfView)
-            add(rounded);
+        const std::string few = digitsOf(float(degrees)); // 45 instead of 45.00000000522092, if the camera is the same
+        double read = 0;
+        std::from_chars(few.data(), few.data() + few.size(), read);
+        if (float(read * kRadians) == camera.verticalFieldOfView)
+            add(float(degrees));
         else
             add(degrees);
     }

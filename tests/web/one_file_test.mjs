@@ -1,5 +1,6 @@
-// The package's single files in pages without a bundler, as unpkg.com would serve them: node one_file_test.mjs TARBALL NODE_MODULES [CASE]
-// The page is that of bindings/js/README.md. Exit code 77: skipped.
+// The package's single files in pages without a bundler, as servers of files serve them:
+//   node one_file_test.mjs TARBALL NODE_MODULES [CASE]
+// The page is that of bindings/js/README.md, beside the unpacked package. Exit code 77: skipped.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -21,15 +22,16 @@ fs.copyFileSync(path.join(cotan, 'dist/three.js'), path.join(judged, 'three/inde
 const { address, close } = await serve({ package: judged, dist: path.join(cotan, 'dist'), modules, data, tests: here });
 const browser = await launch(modules);
 
-// Opens a page with a text. unpkg.com is answered with the files of the packages. said: gets errors.
+// Opens a page with a text. unpkg.com is answered with the files of npm's packages. said: gets errors.
 async function opened(body) {
   const page = await browser.newPage({ viewport: { width: 320, height: 240 } }), said = [];
   page.on('pageerror', (error) => said.push(error.message));
   page.on('console', (message) => { if (message.type() === 'error' && !/favicon/.test(message.location().url)) said.push(message.text()); });
   await page.route('https://unpkg.com/**', (route) => {
     const [, name, file] = /^\/(\w+)(?:@[\d.]+)?\/(.*)$/.exec(new URL(route.request().url()).pathname);
-    return route.fulfill({ path: path.join(name === 'cotan' ? cotan : path.join(modules, name), file), contentType: 'text/javascript', headers: { 'access-control-allow-origin': '*' } });
+    return route.fulfill({ path: path.join(modules, name, file), contentType: 'text/javascript', headers: { 'access-control-allow-origin': '*' } });
   });
+  await page.route(`${address}package/dist/*`, (route) => route.fulfill({ path: path.join(cotan, 'dist', path.basename(new URL(route.request().url()).pathname)), contentType: 'text/javascript' }));
   await page.route(`${address}model.glb`, (route) => route.fulfill({ path: model }));
   await page.route(address, (route) => route.fulfill({ contentType: 'text/html', body }));
   await page.goto(address);

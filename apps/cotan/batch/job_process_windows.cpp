@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr DWORD kTick = 50;                   // milliseconds between two looks at limits
+constexpr DWORD kStep = 50;                   // milliseconds between two looks at limits
 constexpr DWORD kFirstException = 0xC0000000; // exit codes from here on are exceptions
 constexpr DWORD kEndedByControl = 0xC000013A; // STATUS_CONTROL_C_EXIT
 
@@ -126,7 +126,7 @@ void JobProcess::waitForOne(std::span<JobProcess* const> processes)
     std::vector<HANDLE> handles;
     for (const JobProcess* process : processes.first(std::min<std::size_t>(processes.size(), MAXIMUM_WAIT_OBJECTS)))
         handles.push_back(process->system_->process.get());
-    ::WaitForMultipleObjects(DWORD(handles.size()), handles.data(), FALSE, kTick);
+    ::WaitForMultipleObjects(DWORD(handles.size()), handles.data(), FALSE, kStep);
 }
 
 void limitJobProcess(const ChildRequest&)
