@@ -196,7 +196,7 @@ TEST(MapChoice, whereNoBlocksOfThreeChannelsAreWithinTheLimitThoseOfTwoAreNamed)
     const TemporaryFolder& folder = reliefs();
     for (const char* map : {"waves.png", "domes.png"})
         for (const auto& [to, limit, named] :
-             {std::tuple("gltf", "0.02", true), {"gltf", "60", false}, {"gltf,xy", "0.02", false}}) {
+             {std::tuple("gltf", "0.1", true), {"gltf", "60", false}, {"gltf,xy", "0.1", false}}) {
             const ToolRun run = runTool({"map", "convert", map, "--from", "gltf", "--to", to, "--max-degrees", limit,
                                          "--for", "mobile", "-o", "named.ktx2", "--overwrite"},
                                         folder.path());
