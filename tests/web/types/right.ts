@@ -37,7 +37,7 @@ const read: cotan.Image & { bits: number } = await cotan.decodeImage(new Uint8Ar
 const file: Uint8Array = await cotan.encodePng(read);
 const green: 'up' | 'down' | 'unknown' = cotan.detect(picture).green;
 const zero: 127 | 128 | null = cotan.info(picture).zero;
-const made: { bytes: Uint8Array; levels: number } = textures.texture(picture, { from: 'gltf', to: 'gltf,xy', compress: 'eac-rg11', mips: false });
+const blocks: { bytes: Uint8Array; levels: number } = textures.texture(picture, { from: 'gltf', to: 'gltf,xy', compress: 'eac-rg11', mips: false });
 const lost: number | undefined = texturesBeside.texture(picture, { compress: 'uastc', container: 'ktx2', swizzle: 'auto' }).degrees?.mean;
 const bits: cotan.Bits = 16, convention: cotan.Convention = 'unity,xyz';
 const other: cotan.Image = cotan.convertMap(picture, { from: convention, to: 'gltf', bits });
