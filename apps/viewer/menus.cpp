@@ -104,10 +104,14 @@ void addTaskEntries(Entries& e, const State& s)
 {
     e.menu("Check and fix");
     for (const TaskEntry& task : taskEntries())
-        if (task.name)
+        if (task.name) {
+            e.submenu(std::string_view(task.name).starts_with("blocks-") ? "Blocks for GPUs" : "");
             e.add(task.label, "", fmt::format("run {}", task.name), false, s.task.empty() && task.usable(s));
-        else
+        } else {
+            e.submenu("");
             e.line();
+        }
+    e.submenu("");
     e.line();
     e.add("Result", "k", "toggle result", s.resultShown, !s.result.lines.empty());
     e.add("Copy result", "", "copy result", false, !s.result.lines.empty());
