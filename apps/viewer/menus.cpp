@@ -103,14 +103,13 @@ void addFileEntries(Entries& e, const State& s)
 void addTaskEntries(Entries& e, const State& s)
 {
     e.menu("Check and fix");
-    for (const TaskEntry& task : taskEntries())
-        if (task.name) {
-            e.submenu(std::string_view(task.name).starts_with("blocks-") ? "Blocks for GPUs" : "");
+    for (const TaskEntry& task : taskEntries()) {
+        e.submenu(task.submenu);
+        if (task.name)
             e.add(task.label, "", fmt::format("run {}", task.name), false, s.task.empty() && task.usable(s));
-        } else {
-            e.submenu("");
+        else
             e.line();
-        }
+    }
     e.submenu("");
     e.line();
     e.add("Result", "k", "toggle result", s.resultShown, !s.result.lines.empty());

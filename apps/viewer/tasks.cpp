@@ -106,6 +106,7 @@ Task bakeTask(const State& s, const char* title, const std::vector<std::string>&
 }
 
 constexpr TaskEntry kLine{};
+constexpr const char* kBlocks = "Blocks for GPUs";
 constexpr const char *kNeedsModel = "an open model", *kNeedsMap = "an open normal map",
                      *kNeedsGltf = "an open glTF model", *kNeedsPair = "an open model and its high model";
 
@@ -121,11 +122,11 @@ constexpr TaskEntry kEntries[] = {
     {"fix-directx", "Save fixed map for DirectX, Unreal", kNeedsMap, hasMap,
      [](const State& s) { return fixMap(s, "Save fixed map for DirectX", "directx"); }},
     {"blocks-desktop", "Save map as blocks for desktops", kNeedsMap, hasMap,
-     [](const State& s) { return saveBlocks(s, "Save map as blocks for desktops", "desktop"); }},
+     [](const State& s) { return saveBlocks(s, "Save map as blocks for desktops", "desktop"); }, kBlocks},
     {"blocks-mobile", "Save map as blocks for phones", kNeedsMap, hasMap,
-     [](const State& s) { return saveBlocks(s, "Save map as blocks for phones", "mobile"); }},
+     [](const State& s) { return saveBlocks(s, "Save map as blocks for phones", "mobile"); }, kBlocks},
     {"blocks-web", "Save map as blocks for browsers", kNeedsMap, hasMap,
-     [](const State& s) { return saveBlocks(s, "Save map as blocks for browsers", "web"); }},
+     [](const State& s) { return saveBlocks(s, "Save map as blocks for browsers", "web"); }, kBlocks},
     {"convert", "Save model without tangents", kNeedsGltf, hasGltf,
      [](const State& s) { return convertModel(s, "Save model without tangents", {"convert"}, "-free"); }},
     {"tangents", "Save model with new tangents", kNeedsGltf, hasGltf,

@@ -21,6 +21,7 @@ struct TaskEntry {
     const char* needs;                  // what must be open, for the error
     bool (*usable)(const State& state); // whether it is
     Task (*make)(const State& state);   // looks for a free name of the output, beside the file that it comes from
+    const char* submenu = "";           // empty: in the menu itself
 };
 
 // In menu order.
