@@ -168,15 +168,14 @@ Status checkCompress(const BakeCommandOptions& o, const BakeJob& job)
     if (namedAsGltf(o.output))
         return checkModelCompress(job.compress);
     const std::filesystem::path& file = job.files.maps.front();
-    if (!maps::isTextureFile(file)) {
-        const std::vector<std::string> words = maps::compressionWords();
-        if (std::ranges::find(words, job.compress) == words.end())
-            return withOptionNames(maps::codeFor(job.compress, "auto", job.options.stored.format, "map.ktx2").error());
+    const auto code = maps::codeFor(job.compress, "auto", job.options.stored.format, file);
+    if (!maps::codeNamed(job.compress))
+        return withOptionNames(code.error());
+    if (!maps::isTextureFile(file))
         return job.compress == "none"
             ? Status(Done{})
             : usageError(fmt::format("--compress: expected -o MODEL.glb or .gltf, or a map in {}; found '{}'",
                                      imageEndings(&ImageFormat::texture, ", ", " or "), o.output.string()));
-    }
     for (const BakeKind kind : job.options.kinds)
         if (!holdsDirections(kind))
             return usageError(fmt::format("-o {}: {} files hold maps of normals; found {}", o.output.string(),
@@ -184,7 +183,6 @@ Status checkCompress(const BakeCommandOptions& o, const BakeJob& job)
     if (!job.options.packed.empty())
         return usageError(fmt::format("-o {}: {} files hold maps of normals; found {}", o.output.string(),
                                       file.extension().string(), job.options.packed.front().name));
-    const auto code = maps::codeFor(job.compress, "auto", job.options.stored.format, file);
     return code ? Status(Done{}) : withOptionNames(code.error());
 }
 
