@@ -95,6 +95,15 @@ template<class Number> std::string digitsOf(Number value)
             std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr}; // shortest exact form
 }
 
+// An angle in degrees, with as few digits as give it back: 45 instead of 45.00000000522092.
+std::string degreesOf(float radians)
+{
+    const double degrees = double(radians) / kRadians;
+    const std::string few = digitsOf(float(degrees));
+    double read = 0;
+    return parseNumber(std::string_view(few), read) && float(read * kRadians) == radians ? few : digitsOf(degrees);
+}
+
 } // namespace
 
 Result<Camera> parseCamera(const std::string& text, const Scene& scene, int width, int height)
@@ -119,28 +128,23 @@ Result<Camera> parseCamera(const std::string& text, const Scene& scene, int widt
 std::string formatCamera(const Camera& camera)
 {
     std::string text;
-    const auto add = [&](auto value) { text += (text.empty() || text.back() == 'h' ? "" : ",") + digitsOf(value); };
+    const auto add = [&](const std::string& digits) {
+        text += (text.empty() || text.back() == 'h' ? "" : ",") + digits;
+    };
     for (const glm::vec3& point : {camera.eye, camera.target})
         for (int i = 0; i < 3; ++i)
-            add(point[i]);
+            add(digitsOf(point[i]));
     if (camera.orthographic) {
         text += ",h";
-        add(camera.verticalExtent);
+        add(digitsOf(camera.verticalExtent));
     } else {
-        const double degrees = double(camera.verticalFieldOfView) / kRadians;
-        const std::string few = digitsOf(float(degrees)); // 45 instead of 45.00000000522092, if the camera is the same
-        double read = 0;
-        std::from_chars(few.data(), few.data() + few.size(), read);
-        if (float(read * kRadians) == camera.verticalFieldOfView)
-            add(float(degrees));
-        else
-            add(degrees);
+        add(degreesOf(camera.verticalFieldOfView));
     }
     const glm::vec3 forward = camera.target - camera.eye;
     const bool vertical = glm::length(glm::cross(forward, {0, 1, 0})) <= 1e-4f * glm::length(forward);
     if (camera.up != (vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0)))
         for (int i = 0; i < 3; ++i)
-            add(camera.up[i]);
+            add(digitsOf(camera.up[i]));
     return text;
 }
 
