@@ -22,6 +22,11 @@ def say(operator, outcome):
     return {"FINISHED"} if outcome.made else {"CANCELLED"}
 
 
+def _require_object_mode(context):
+    if context.mode != "OBJECT":
+        raise Refused("Go back to Object Mode first")
+
+
 class CotanBake(bpy.types.Operator):
     """Bake the chosen maps of detailed meshes for a simple one"""
 
@@ -39,8 +44,7 @@ class CotanBake(bpy.types.Operator):
     )
 
     def _begin(self, context):
-        if context.mode != "OBJECT":
-            raise Refused("Go back to Object Mode first")
+        _require_object_mode(context)
         found, notes = pairs.by_name(context) if self.which == "NAMES" else pairs.by_selection(context)
         self._outcome = bake.Outcome(notes=notes)
         self._steps = bake.run(context, context.scene.cotan, found, self._outcome)
@@ -111,8 +115,7 @@ class CotanCage(bpy.types.Operator):
     def execute(self, context):
         low, settings = context.view_layer.objects.active, context.scene.cotan
         try:
-            if context.mode != "OBJECT":
-                raise Refused("Go back to Object Mode first")
+            _require_object_mode(context)
             if low is None or low.type != "MESH":
                 raise Refused("No mesh is active: select the simple mesh")
             cage = cages.made_for(context, low, settings)
@@ -142,8 +145,7 @@ class CotanFrame(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            if context.mode != "OBJECT":
-                raise Refused("Go back to Object Mode first")
+            _require_object_mode(context)
             things = [o for o in context.selected_objects if o.type == "MESH"]
             use = frames.use_cotans if self.which == "COTAN" else frames.use_blenders
             found, notes = use(context, things)
@@ -218,8 +220,7 @@ class CotanExport(bpy.types.Operator, ExportHelper):
     def execute(self, context):
         settings = context.scene.cotan
         try:
-            if context.mode != "OBJECT":
-                raise Refused("Go back to Object Mode first")
+            _require_object_mode(context)
             things = context.selected_objects
             if not any(t.type == "MESH" for t in things):
                 raise Refused("No mesh is selected: select the objects to export")
