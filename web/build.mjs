@@ -52,11 +52,11 @@ export const files = { ${Object.keys(files).map((name, k) => `'${name}': file${k
 
 // Documents of the repository that become pages, with their images. Links between them are kept; links to other files
 // become plain text.
-const documents = { theory: 'Theory', figures: 'The figures', cost: 'Cost', mobile: 'Phones' };
+const documents = { theory: ['explanation', 'Theory'], figures: ['explanation', 'The figures'], cost: ['explanation', 'Cost'], mobile: ['how-to', 'Phones'] };
 mkdirSync(join(out, 'pictures'));
 const [policy] = /<meta http-equiv="Content-Security-Policy"[^>]*>/.exec(readFileSync(join(here, 'index.html'), 'utf8'));
-for (const [name, title] of Object.entries(documents)) {
-  const headings = new Map(), text = marked.parse(readFileSync(join(root, name === 'mobile' ? 'docs/how-to' : 'docs/explanation', `${name}.md`), 'utf8'))
+for (const [name, [folder, title]] of Object.entries(documents)) {
+  const headings = new Map(), text = marked.parse(readFileSync(join(root, 'docs', folder, `${name}.md`), 'utf8'))
     .replace(/<h(\d)>(.*?)<\/h\1>/gs, (_, level, words) => `<h${level} id="${anchor(words, headings)}">${words}</h${level}>`)
     .replace(new RegExp(`href="(${Object.keys(documents).join('|')})\\.md(#[^"]*)?"`, 'g'), 'href="$1.html$2"')
     .replace(/<a href="(?!#|https?:|[a-z]+\.html)[^"]*">(.*?)<\/a>/gs, '$1')
@@ -67,7 +67,7 @@ for (const [name, title] of Object.entries(documents)) {
     .replaceAll('<pre>', '<pre tabindex="0">').replaceAll('<table>', '<div class="scroll" tabindex="0"><table>').replaceAll('</table>', '</table></div>');
   writeFileSync(join(out, `${name}.html`), `<!doctype html><html lang="en"><head><meta charset="utf-8">${policy}<meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark"><link rel="icon" href="data:,"><title>Cotan: ${title.toLowerCase()}</title><link rel="stylesheet" href="style.css"></head>
-<body><header><a class="name" href="index.html">Cotan</a><nav>${Object.entries(documents).map(([page, words]) => `<a href="${page}.html"${page === name ? ' aria-current="page"' : ''}>${words}</a>`).join('')}</nav></header><main class="document">${text}</main></body></html>\n`);
+<body><header><a class="name" href="index.html">Cotan</a><nav>${Object.entries(documents).map(([page, [, words]]) => `<a href="${page}.html"${page === name ? ' aria-current="page"' : ''}>${words}</a>`).join('')}</nav></header><main class="document">${text}</main></body></html>\n`);
 }
 
 // Replaces the code of the transcoder that compiles functions from strings, which the page's Content-Security-Policy
