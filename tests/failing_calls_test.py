@@ -5,8 +5,8 @@ failing_calls_test.py TOOL [COMMAND LINE]
 
 The library failing_calls.c beside this file is preloaded into the tool. Each command first runs without a fault, which
 lists its calls on files of its folder: open, read, write, rename and so on. Then it runs once for each of these calls,
-and that call fails. Of many equal calls in a row, such as the 200 writes of an EXR, only the first and last four and
-each eighth fail. A process that the command starts counts its own calls, and fails at the same number. Last, each
+and that call fails. Of many equal calls in a row, such as the 200 writes of an EXR, only the first and last two and
+each sixteenth fail. A process that the command starts counts its own calls, and fails at the same number. Last, each
 format is written with file sizes limited to 512 bytes, which looks to a program like a full disk."""
 import concurrent.futures
 import itertools
@@ -64,7 +64,7 @@ def tried_of(calls):
     begin = 1
     for _, equal in itertools.groupby(calls):
         count = len(list(equal))
-        yield from (begin + i for i in range(count) if i < 4 or i >= count - 4 or i % 8 == 0)
+        yield from (begin + i for i in range(count) if i < 2 or i >= count - 2 or i % 16 == 0)
         begin += count
 
 

@@ -43,7 +43,6 @@ await fact('theViewShowsTheAdvisedConversion', async () => {
   if (hasData) cases.push(
     ['BoomBox', beside(join(data, 'models/BoomBox')), /read as they are/, 0.3],
     ['the cat', [...beside(cat), ...beside(join(cat, 'textures'))], /Green and the stored tangents are both reversed: together they cancel out/, 1],
-    ['the chess set', [join(data, 'compressed/chess_board_draco.glb')], /./, 1],
   );
   for (const [name, files, words, most] of cases) {
     if (files) await drop(page, files);

@@ -155,23 +155,22 @@ await fact('documentsShowTheirImagesAndTheirLinksWork', async () => {
 
 await fact('accessibilityRulesHoldInLightAndDark', async () => {
   const wrong = [], rules = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
-  for (const colorScheme of ['light', 'dark'])
-    for (const width of [360, 1280])
-      for (const sample of ['#sample-map', '#sample-model']) {
-        const page = await open({ colorScheme, viewport: { width, height: 800 } });
-        await page.click(sample);
-        await settled(page);
-        if (sample === '#sample-model') await viewed(page);
-        await page.locator('#shader').scrollIntoViewIfNeeded();
-        await page.waitForFunction(() => document.querySelector('#shader-panel pre code')?.textContent.length > 500);
-        await page.evaluate(() => document.querySelectorAll('details').forEach(one => { one.open = true; }));
-        await page.evaluate(rules);
-        const { violations } = await page.evaluate(() => axe.run());
-        wrong.push(...violations.map(({ id, nodes }) => `${colorScheme}, ${width} pixels, ${sample}: ${id} at ${nodes.map(node => node.target.join(' ')).slice(0, 4).join(', ')}`));
-        const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-        if (wide > width) wrong.push(`${width} pixels, ${sample}: ${wide} wide`);
-        await page.context().close();
-      }
+  // Each pair of colours, width and sample.
+  for (const [colorScheme, width, sample] of [['light', 360, 'map'], ['light', 1280, 'model'], ['dark', 360, 'model'], ['dark', 1280, 'map']]) {
+    const page = await open({ colorScheme, viewport: { width, height: 800 } });
+    await page.click(`#sample-${sample}`);
+    await settled(page);
+    if (sample === 'model') await viewed(page);
+    await page.locator('#shader').scrollIntoViewIfNeeded();
+    await page.waitForFunction(() => document.querySelector('#shader-panel pre code')?.textContent.length > 500);
+    await page.evaluate(() => document.querySelectorAll('details').forEach(one => { one.open = true; }));
+    await page.evaluate(rules);
+    const { violations } = await page.evaluate(() => axe.run());
+    wrong.push(...violations.map(({ id, nodes }) => `${colorScheme}, ${width} pixels, ${sample}: ${id} at ${nodes.map(node => node.target.join(' ')).slice(0, 4).join(', ')}`));
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    if (wide > width) wrong.push(`${width} pixels, ${sample}: ${wide} wide`);
+    await page.context().close();
+  }
   return wrong.join('\n');
 });
 
