@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { deflateRawSync } from 'node:zlib';
+import { deflateSync } from 'node:zlib';
 
 import { oneFile } from './one_file.mjs';
 
@@ -34,10 +34,10 @@ for (const file of fs.readdirSync(path.join(here, 'src')).filter((name) => name.
 for (const [name, built] of [['cotan', 'cotan_js_whole.wasm'], ['tangents', 'cotan_js_tangents.wasm'], ['textures', 'cotan_js_textures.wasm']]) {
   const bytes = fs.readFileSync(path.join(wasmFolder, built));
   fs.writeFileSync(path.join(packageFolder, `wasm/${name}.wasm`), bytes);
-  const text = deflateRawSync(bytes, { level: 9, memLevel: 7 }).toString('base64'); // memLevel: shorter blocks suit code
+  const text = deflateSync(bytes, { level: 9, memLevel: 7 }).toString('base64'); // memLevel: shorter blocks suit code
   put(`wasm/${name}_inside.js`, `import { through } from '../src/streams.js';
 const text = '${text}';
-export const bytes = () => through(new DecompressionStream('deflate-raw'), Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
+export const bytes = () => through(new DecompressionStream('deflate'), Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
 `);
   put(`wasm/${name}_beside.js`, `import { bytesAt } from '../src/bytes_beside.js';
 export const bytes = () => bytesAt(new URL('./${name}.wasm', import.meta.url));
