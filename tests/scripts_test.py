@@ -75,7 +75,7 @@ def what_builds_make():
 
 
 # Written by scripts, not by the build.
-BY_SCRIPTS = ("found", "corpus", "logs", "debs", "cpack.txt", "npm", "data", "data-npm", "models-npm", "models-made", "models-made.part")
+BY_SCRIPTS = ("found", "corpus", "logs", "debs", "cpack.txt", "npm", "web", "data", "data-npm", "models-npm", "models-made", "models-made.part")
 
 
 def namesWhatTheBuildMakes():
