@@ -106,20 +106,15 @@ int main(int argc, char** argv)
     });
     if (low.empty() || high.empty())
         return 2;
-    Baked baked;
-    part("bake", [&] {
-        baked = std::move(*bake(low[0], high[0], options));
-        return std::to_string(baked.statistics.rays);
+    std::vector<Baked> baked;
+    part("bake", [&] { // into 8 bits, as the command does
+        baked = std::move(*bakeMaps(low[0], high[0], options, {options.kind}, {}, {StoredAs{}}));
+        return std::to_string(baked[0].statistics.rays);
     });
     part("pad", [&] {
         padCharts(baked, 16);
         return "";
     });
-    Image image;
-    part("store", [&] {
-        image = storeBaked(baked, options.kind, {});
-        return "";
-    });
     if (argc > 5)
-        part("write", [&] { return writeImage(argv[5], image) ? "" : "failed"; });
+        part("write", [&] { return writeImage(argv[5], baked[0].image) ? "" : "failed"; });
 }

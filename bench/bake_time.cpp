@@ -182,7 +182,9 @@ int main(int argc, char** argv)
         }));
         rows.push_back(packets(inRows));
         squares.push_back(packets(inSquares));
-        bakes.push_back(timed([&] { bakedRays = bake(*low, *high, options)->statistics.rays; }));
+        bakes.push_back(timed([&] { // into 8 bits, as the command does
+            bakedRays = bakeMaps(*low, *high, options, {BakeKind::normal}, {}, {StoredAs{}})->front().statistics.rays;
+        }));
     }
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);

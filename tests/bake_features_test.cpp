@@ -165,19 +165,18 @@ TEST_F(BakeFeatures, mapsThatDoNotFitTogetherAreRefusedBeforeAnythingIsTraced)
     write("high.obj", square(-1, -1, 0.25, 3) + kFaces);
     const auto with = [&](std::vector<std::string> more) {
         std::vector<std::string> words = {"--high", "high.obj", "--low", "low.obj",  "--size",
-                                          "256",    "-o",       "m.png", "--memory", "3"};
+                                          "256",    "-o",       "m.png", "--memory", "2"};
         words.insert(words.end(), more.begin(), more.end());
         return bake(words);
     };
-    // A texel takes 4 bytes of the image for each map, 12 of values for directions and heights, and 6 for states and
-    // padding: 2.6 MiB for three maps, 3.6 for four. The last case has 16 for a channel, and 4 for its ao and
-    // curvature.
+    // A texel takes 4 bytes of the image for each map, 12 of values for heights, and 6 for states and padding: 1.9 MiB
+    // for three maps, 2.1 for four. The last case has 16 for a channel, and 4 for its ao and curvature.
     EXPECT_EQ(with({"--maps", "position,height,normal"}).code, 0);
     std::filesystem::remove(folder / "m-height.png");
     for (const auto& [words, message] :
          {std::pair(std::vector<std::string>{"--maps", "position,height,normal,object-normal"},
-                    "4 maps of 256x256 take 4 MiB together; the limit is 3 MiB (--memory raises it)"),
-          {{"--maps", "position,height,normal", "--bits", "16"}, "3 maps of 256x256 take 4 MiB"},
+                    "4 maps of 256x256 take 3 MiB together; the limit is 2 MiB (--memory raises it)"),
+          {{"--maps", "position,height,normal", "--bits", "16"}, "3 maps of 256x256 take 3 MiB"},
           {{"--maps", "normal", "--pack", "R=ao,G=height,B=curvature"}, "4 maps of 256x256 take 4 MiB"}}) {
         const ToolRun r = with(words);
         EXPECT_EQ(r.code, 2) << r.err;

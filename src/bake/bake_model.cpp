@@ -56,7 +56,7 @@ std::vector<std::optional<StoredAs>> storedAtOnce(const BakeModelOptions& option
     for (std::size_t m = 0; m < kinds.size(); ++m) {
         const StoredAs& as = stored[std::min(m, stored.size() - 1)];
         const bool needsAll = as.dither || (kinds[m] == BakeKind::height && as.type != PixelType::float32);
-        if (alike && !needsAll && !holdsDirections(kinds[m])) // whose mean in a texel may be zero
+        if (alike && !needsAll)
             images[m] = as;
     }
     return images;

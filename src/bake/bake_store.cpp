@@ -33,35 +33,53 @@ float bayer(int x, int y)
     return (float(v) + 0.5f) / 64;
 }
 
-// Writes a row of texels. The components of unorm are first converted in one loop, which the compiler vectorises.
-void putRow(Image& image, int y, std::span<const glm::vec3> texels, bool dither)
+using Offsets = std::array<float, 3 * kBatch>; // that integers of 8 bits are rounded down after
+
+constexpr Offsets kHalves = [] {
+    Offsets halves{};
+    halves.fill(0.5f);
+    return halves;
+}();
+
+// Stores up to kBatch texels; at(i): index in the image of the ith. The components of unorm are first converted in one
+// loop, which the compiler vectorises.
+template<class At> void putTexels(Image& image, std::span<const glm::vec3> texels, const At& at, const Offsets& offsets)
 {
-    const std::size_t first = 4 * std::size_t(y) * std::size_t(image.width);
     const auto put = [&](auto* to, auto convert) {
         using Stored = std::remove_pointer_t<decltype(to)>;
         std::array<Stored, 3 * kBatch> components;
-        for (std::size_t begin = 0; begin < texels.size(); begin += kBatch) {
-            const std::size_t count = std::min(kBatch, texels.size() - begin);
-            const float* const from = &texels[begin].x;
-            for (std::size_t k = 0; k < 3 * count; ++k)
+        const float* const from = &texels[0].x;
+        runLanes([&] {
+            for (std::size_t k = 0; k < 3 * texels.size(); ++k)
                 components[k] = convert(from[k], k);
-            for (std::size_t i = 0; i < count; ++i, to += 4) {
-                std::copy_n(&components[3 * i], 3, to);
-                to[3] = Stored(image.type == PixelType::float32 ? 1 : -1);
-            }
+        });
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            const Stored* const c = &components[3 * i];
+            const std::array<Stored, 4> stored{c[0], c[1], c[2], Stored(image.type == PixelType::float32 ? 1 : -1)};
+            std::copy_n(stored.data(), 4, to + 4 * at(i));
         }
     };
     const auto unorm = [](float c) { return maps::settled(std::clamp(c, 0.0f, 1.0f)); };
-    std::array<float, 3 * kBatch> offsets;
-    for (std::size_t k = 0; k < offsets.size(); ++k)
-        offsets[k] = dither ? bayer(int(k / 3 % 8), y) : 0.5f;
     if (image.type == PixelType::float32)
-        put(image.floats() + first, [](float c, std::size_t) { return c; });
+        put(image.floats(), [](float c, std::size_t) { return c; });
     else if (image.type == PixelType::unorm16)
-        put(image.words() + first, [&](float c, std::size_t) { return std::uint16_t(int(unorm(c) * 65535 + 0.5f)); });
+        put(image.words(), [&](float c, std::size_t) { return std::uint16_t(int(unorm(c) * 65535 + 0.5f)); });
     else
-        put(image.bytes8() + first,
+        put(image.bytes8(),
             [&](float c, std::size_t k) { return std::uint8_t(std::min(int(unorm(c) * 255 + offsets[k]), 255)); });
+}
+
+void putRow(Image& image, int y, std::span<const glm::vec3> texels, bool dither)
+{
+    Offsets offsets = kHalves;
+    for (std::size_t k = 0; k < offsets.size() && dither; ++k)
+        offsets[k] = bayer(int(k / 3 % 8), y);
+    for (std::size_t begin = 0; begin < texels.size(); begin += kBatch) {
+        const std::size_t first = std::size_t(y) * std::size_t(image.width) + begin;
+        putTexels(
+            image, texels.subspan(begin, std::min(kBatch, texels.size() - begin)),
+            [first](std::size_t i) { return first + i; }, offsets);
+    }
 }
 
 // The texel from which each texel is filled: itself if it has a value, kNoTexel if there is none near enough.
@@ -71,44 +89,57 @@ std::vector<std::uint32_t> nearestFilled(const Baked& baked, const Baked& first,
     for (std::size_t i = 0; i < owner.size(); ++i)
         if ((first.states[i] & (texelCovered | texelTouched)) != 0 && baked.hasValue(first, i))
             owner[i] = std::uint32_t(i);
-    propagateNearest(owner, baked.width, baked.height, TieBreak::above);
-    const std::int64_t limit = std::int64_t(radius) * radius;
-    for (std::size_t i = 0; i < owner.size() && radius > 0; ++i)
-        if (owner[i] != kNoTexel && owner[i] != i && distance2(owner[i], std::uint32_t(i), baked.width) > limit)
-            owner[i] = kNoTexel;
+    propagateNearest(owner, baked.width, baked.height, TieBreak::above, radius);
     return owner;
 }
 
-constexpr std::size_t kPart = 1 << 16; // texels
+constexpr std::size_t kPart = 1 << 14; // texels
 
-// Copies each of the texels from its owner, which stays as it is.
-template<class Texel> void copyFrom(const std::vector<std::uint32_t>& owner, Texel* texels)
+struct Filled {
+    std::uint32_t texel, owner;
+};
+
+template<class Texel> void copyFrom(std::span<const Filled> filled, Texel* texels)
 {
-    parallelRanges(std::size_t(0), owner.size(), kPart, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (owner[i] != kNoTexel && owner[i] != i)
-                texels[i] = texels[owner[i]];
-    });
+    for (const Filled& f : filled)
+        texels[f.texel] = texels[f.owner];
 }
 
-void fillFrom(const std::vector<std::uint32_t>& owner, Baked& baked)
+void copyFrom(std::span<const Filled> filled, Baked& baked)
 {
     if (!baked.values.empty())
-        copyFrom(owner, baked.values.data());
+        copyFrom(filled, baked.values.data());
     else if (baked.image.type == PixelType::float32)
-        copyFrom(owner, reinterpret_cast<std::array<float, 4>*>(baked.image.floats()));
+        copyFrom(filled, reinterpret_cast<std::array<float, 4>*>(baked.image.floats()));
     else if (baked.image.type == PixelType::unorm16)
-        copyFrom(owner, reinterpret_cast<std::array<std::uint16_t, 4>*>(baked.image.words()));
+        copyFrom(filled, reinterpret_cast<std::array<std::uint16_t, 4>*>(baked.image.words()));
     else
-        copyFrom(owner, reinterpret_cast<std::array<std::uint8_t, 4>*>(baked.image.bytes8()));
-    for (std::size_t i = 0; i < baked.states.size(); ++i)
-        if (owner[i] != kNoTexel && owner[i] != i)
-            baked.states[i] = std::uint8_t(baked.states[i] | texelPadded);
+        copyFrom(filled, reinterpret_cast<std::array<std::uint8_t, 4>*>(baked.image.bytes8()));
+    for (std::size_t i = 0; i < filled.size() && !baked.states.empty(); ++i)
+        baked.states[filled[i].texel] = std::uint8_t(baked.states[filled[i].texel] | texelPadded);
+}
+
+// Copies texels of maps from their owners, which stay as they are.
+void fillFrom(const std::vector<std::uint32_t>& owner, std::span<Baked* const> maps)
+{
+    parallelRanges(std::size_t(0), owner.size(), kPart, [&](std::size_t begin, std::size_t end) {
+        std::vector<Filled> filled; // of a part whose list stays in the cache
+        for (std::size_t part = begin; part < end; part += kPart) {
+            filled.clear();
+            for (std::size_t i = part; i < std::min(part + kPart, end); ++i)
+                if (owner[i] != kNoTexel && owner[i] != i)
+                    filled.push_back({std::uint32_t(i), owner[i]});
+            for (Baked* const map : maps)
+                copyFrom(filled, *map);
+        }
+    });
 }
 
 // Whether the texels with a value are those that are filled from themselves.
 bool hasValuesIn(const Baked& baked, const Baked& first, const std::vector<std::uint32_t>& owner)
 {
+    if (baked.values.empty() && first.values.empty()) // known by first.found alone
+        return baked.cancelled == first.cancelled;
     std::atomic<bool> same{true};
     parallelRanges(std::size_t(0), owner.size(), kPart, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end && same; ++i)
@@ -120,17 +151,19 @@ bool hasValuesIn(const Baked& baked, const Baked& first, const std::vector<std::
 
 } // namespace
 
-void padCharts(Baked& baked, int radius) { fillFrom(nearestFilled(baked, baked, radius), baked); }
+void padCharts(Baked& baked, int radius) { fillFrom(nearestFilled(baked, baked, radius), std::array{&baked}); }
 
 void padCharts(std::vector<Baked>& maps, int radius)
 {
     const Baked& first = maps.front();
     const std::vector<std::uint32_t> owner = nearestFilled(first, first, radius);
+    std::vector<Baked*> alike;
     for (Baked& map : maps)
-        if (hasValuesIn(map, first, owner))
-            fillFrom(owner, map);
+        if (&map == &first || hasValuesIn(map, first, owner))
+            alike.push_back(&map);
         else
-            fillFrom(nearestFilled(map, first, radius), map);
+            fillFrom(nearestFilled(map, first, radius), std::array{&map});
+    fillFrom(owner, alike);
 }
 
 namespace {
@@ -165,7 +198,7 @@ public:
         scale_ = highest > lowest ? 1 / (highest - lowest) : 0;
     }
 
-    void row(std::span<const glm::vec3> values, std::span<glm::vec3> texels) const
+    void convert(std::span<const glm::vec3> values, std::span<glm::vec3> texels) const
     {
         if (holdsDirections(kind_))
             encode(values, texels, format_);
@@ -177,18 +210,47 @@ public:
                 texels[i] = of(values[i]);
     }
 
-private:
-    // Inlines the portable text into the loop, which the compiler otherwise does not vectorise.
-    [[gnu::flatten]] static void encode(std::span<const glm::vec3> directions, std::span<glm::vec3> texels,
-                                        f32::cotan_normal_format format)
+    // For texels without one.
+    glm::vec3 empty() const
     {
+        if (!holdsDirections(kind_))
+            return glm::vec3(kind_ == BakeKind::curvature && !isFloat_ ? 0.5f : 0);
+        return isInWorld(kind_) ? glm::vec3(f32::cotan_compress(0, format_.expansion))
+                                : f32::cotan_encode_texel(glm::vec3(0, 0, 1), format_);
+    }
+
+private:
+    // Inlines the portable text into the loop, which the compiler vectorises only if the format is a constant there.
+    template<int kChannels, int kExpansion>
+    static void encodeLanes(const Lanes3& in, Lanes3& out, const f32::cotan_normal_format& format)
+    {
+        runLanes([&] {
+            f32::cotan_normal_format f = format;
+            f.channels = kChannels < 0 ? f.channels : kChannels;
+            f.expansion = kExpansion < 0 ? f.expansion : kExpansion;
+            for (std::size_t i = 0; i < kLanes; ++i)
+                out.set(i, f32::cotan_encode_texel(in.at(i), f));
+        });
+    }
+    static auto encoderOf(const f32::cotan_normal_format& format)
+    {
+        constexpr int kXyz = COTAN_CHANNELS_XYZ;
+        return format.channels != kXyz                 ? encodeLanes<-1, -1>
+            : format.expansion == COTAN_EXPAND_EXACT   ? encodeLanes<kXyz, COTAN_EXPAND_EXACT>
+            : format.expansion == COTAN_EXPAND_EXACT16 ? encodeLanes<kXyz, COTAN_EXPAND_EXACT16>
+            : format.expansion == COTAN_EXPAND_BIASED  ? encodeLanes<kXyz, COTAN_EXPAND_BIASED>
+                                                       : encodeLanes<kXyz, COTAN_EXPAND_SIGNED>;
+    }
+    static void encode(std::span<const glm::vec3> directions, std::span<glm::vec3> texels,
+                       const f32::cotan_normal_format& format)
+    {
+        const auto encodeAll = encoderOf(format);
         Lanes3 in, out;
         for (std::size_t first = 0; first < directions.size(); first += kLanes) {
             const std::size_t count = std::min(kLanes, directions.size() - first);
             for (std::size_t i = 0; i < count; ++i)
                 in.set(i, directions[first + i]);
-            for (std::size_t i = 0; i < kLanes; ++i)
-                out.set(i, f32::cotan_encode_texel(in.at(i), format));
+            encodeAll(in, out, format);
             for (std::size_t i = 0; i < count; ++i)
                 texels[first + i] = out.at(i);
         }
@@ -216,14 +278,6 @@ private:
         const auto of = [](float x) { return f32::cotan_linear_to_srgb(std::clamp(x, 0.0f, 1.0f)); };
         return isFloat_ ? linear : glm::vec3(of(linear.x), of(linear.y), of(linear.z));
     }
-    glm::vec3 empty() const
-    {
-        if (!holdsDirections(kind_))
-            return glm::vec3(kind_ == BakeKind::curvature && !isFloat_ ? 0.5f : 0);
-        return isInWorld(kind_) ? glm::vec3(f32::cotan_compress(0, format_.expansion))
-                                : f32::cotan_encode_texel(glm::vec3(0, 0, 1), format_);
-    }
-
     BakeKind kind_;
     bool isFloat_;
     float unit_, low_ = 0, scale_ = 1;
@@ -233,49 +287,78 @@ private:
 
 } // namespace
 
-StoreRow rowStore(const Baked& baked, BakeKind kind, const StoredAs& as)
+Image emptyImage(const Baked& baked, BakeKind kind, const StoredAs& as)
 {
-    return [stored = StoredValue(baked, kind, as), dither = as.dither](int y, std::span<const glm::vec3> values,
-                                                                       Image& image) {
-        std::vector<glm::vec3> row(values.size());
-        stored.row(values, row);
-        putRow(image, y, row, dither);
+    Image image = makeImage(baked.width, baked.height, as.type);
+    putRow(image, 0, std::vector(std::size_t(baked.width), StoredValue(baked, kind, as).empty()), false);
+    const auto row = std::ptrdiff_t(image.data.size()) / baked.height;
+    for (int y = 1; y < baked.height; ++y)
+        std::copy_n(image.data.begin(), row, image.data.begin() + y * row);
+    return image;
+}
+
+StoreTexels texelStore(const Baked& baked, BakeKind kind, const StoredAs& as)
+{
+    return [stored = StoredValue(baked, kind, as)](std::span<const std::uint32_t> texels,
+                                                   std::span<const glm::vec3> values, Image& image) {
+        std::array<glm::vec3, kBatch> batch;
+        for (std::size_t begin = 0; begin < texels.size(); begin += kBatch) {
+            const std::size_t count = std::min(kBatch, texels.size() - begin);
+            stored.convert(values.subspan(begin, count), batch);
+            putTexels(
+                image, {batch.data(), count}, [&](std::size_t i) { return std::size_t(texels[begin + i]); }, kHalves);
+        }
     };
 }
 
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
 {
     Image image = makeImage(baked.width, baked.height, as.type);
-    const StoreRow store = rowStore(baked, kind, as);
+    const StoredValue stored(baked, kind, as);
     const auto width = static_cast<std::size_t>(baked.width);
     parallelRanges<int>(0, baked.height, 1 + (1 << 14) / baked.width, [&](int begin, int end) {
-        for (int y = begin; y != end; ++y)
-            store(y, {&baked.values[std::size_t(y) * width], width}, image);
+        std::vector<glm::vec3> row(width);
+        for (int y = begin; y != end; ++y) {
+            stored.convert({&baked.values[std::size_t(y) * width], width}, row);
+            putRow(image, y, row, as.dither);
+        }
     });
     return image;
 }
 
+namespace {
+
+// Sets a channel of an image to the red of another one, or without one to a constant.
+template<class Component> void setChannel(Component* to, const Component* red, Component constant, std::size_t texels)
+{
+    parallelRanges(std::size_t(0), texels, kPart, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            to[4 * i] = red ? red[4 * i] : constant;
+    });
+}
+
+} // namespace
+
 Image packMaps(const std::vector<Baked>& maps, const std::vector<BakeKind>& kinds, const PackedMap& packed,
                const StoredAs& as)
 {
-    Image image = makeImage(maps.front().width, maps.front().height, as.type);
-    const std::size_t size = bytesPerComponent(as.type);
+    Image image = makeImage(maps.front().width, maps.front().height, as.type), made;
     for (std::size_t channel = 0; channel < 4; ++channel) {
-        Image source;
+        const Image* source = nullptr;
         if (const std::optional<BakeKind> kind = packed.kinds[channel]) {
             const Baked& map = maps[std::size_t(std::ranges::find(kinds, *kind) - kinds.begin())];
-            source = map.values.empty() ? map.image : storeBaked(map, *kind, as);
+            source = map.values.empty() ? &map.image : &(made = storeBaked(map, *kind, as));
         }
-        const float constant = packed.constants[channel];
-        const auto eight = std::uint8_t(constant * 255 + 0.5f);
-        const auto sixteen = std::uint16_t(constant * 65535 + 0.5f);
-        const void* const stored = as.type == PixelType::unorm8 ? static_cast<const void*>(&eight)
-            : as.type == PixelType::unorm16                     ? static_cast<const void*>(&sixteen)
-                                                                : &constant;
-        const bool isConstant = source.data.empty();
-        const auto* from = isConstant ? static_cast<const std::byte*>(stored) : source.data.data();
-        for (std::size_t i = 0; i < image.pixelCount(); ++i)
-            std::memcpy(&image.data[(4 * i + channel) * size], from + (isConstant ? 0 : 4 * i * size), size);
+        const float c = packed.constants[channel];
+        const std::size_t texels = image.pixelCount();
+        if (as.type == PixelType::unorm8)
+            setChannel(image.bytes8() + channel, source ? source->bytes8() : nullptr, std::uint8_t(c * 255 + 0.5f),
+                       texels);
+        else if (as.type == PixelType::unorm16)
+            setChannel(image.words() + channel, source ? source->words() : nullptr, std::uint16_t(c * 65535 + 0.5f),
+                       texels);
+        else
+            setChannel(image.floats() + channel, source ? source->floats() : nullptr, c, texels);
     }
     return image;
 }

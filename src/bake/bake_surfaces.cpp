@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <mutex>
 #include <span>
@@ -31,10 +32,10 @@ class BlockBaker {
 public:
     // out: a map of each kind; the states are those of the first.
     BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options,
-               const std::vector<BakeKind>& kinds, const std::vector<StoreRow>& stores, std::vector<Baked>& out)
+               const std::vector<BakeKind>& kinds, const std::vector<StoreTexels>& stores, std::vector<Baked>& out)
         : low_(low), baker_(baker), raster_(raster), options_(options), kinds_(kinds), stores_(stores), maps_(out),
-          out_(out.front()), sums_(kinds.size()), shift_(std::countr_zero(unsigned(options.samples))),
-          values_(kinds.size())
+          out_(out.front()), sums_(kinds.size()), cancelled_(kinds.size()), below_(kinds.size()),
+          shift_(std::countr_zero(unsigned(options.samples))), values_(kinds.size())
     {
         for (const BakeKind kind : kinds) {
             looksOut_ = looksOut_ || kind == BakeKind::occlusion || kind == BakeKind::bentNormal
@@ -51,8 +52,8 @@ public:
         raster_.firsts(block, samples_);
         base_ = std::size_t(first) * std::size_t(out_.width);
         const std::size_t texels = std::size_t(last - first) * std::size_t(out_.width);
-        for (std::vector<glm::vec3>& sums : sums_)
-            sums.assign(texels, glm::vec3(0));
+        for (std::size_t m = 0; m < kinds_.size(); ++m)
+            sums_[m].resize(planesOf(kinds_[m]) * texels);
         if (hasIds_)
             ids_.resize(texels * samplesPerTexel());
         found_.assign(texels, 0);
@@ -64,18 +65,37 @@ public:
         }
         for (const glm::ivec2& rasterTexel : samples_.coveredTwice)
             mark(texelOf(rasterTexel), texelOverlapped);
+        filled_.clear();
+        for (std::size_t i = 0; i < texels;) {
+            std::uint64_t eight = 1;
+            if (texels - i >= sizeof eight)
+                std::memcpy(&eight, &out_.states[base_ + i], sizeof eight);
+            if (eight == 0) { // as most texels of most maps
+                states_[0] += sizeof eight;
+                i += sizeof eight;
+                continue;
+            }
+            for (const std::size_t end = std::min(i + sizeof eight, texels); i < end; ++i) {
+                ++states_[out_.states[base_ + i]];
+                if (found_[i] > 0)
+                    filled_.push_back(std::uint32_t(base_ + i));
+            }
+        }
         for (std::size_t m = 0; m < kinds_.size(); ++m)
-            finish(m, first);
-        for (std::size_t i = 0; i < texels; ++i)
-            ++states_[out_.states[base_ + i]];
+            finish(m);
         if (!out_.found.empty())
             std::transform(found_.begin(), found_.end(), out_.found.begin() + std::ptrdiff_t(base_),
                            [](std::uint8_t n) { return std::uint8_t(n > 0); });
     }
 
-    // Adds the counts of all blocks that were baked.
-    void addTo(BakeStatistics& s) const
+    // Adds what all blocks that were baked found.
+    void addTo(std::vector<Baked>& maps) const
     {
+        for (std::size_t m = 0; m < kinds_.size(); ++m) {
+            maps[m].cancelled.insert(maps[m].cancelled.end(), cancelled_[m].begin(), cancelled_[m].end());
+            maps[m].below.insert(maps[m].below.end(), below_[m].begin(), below_[m].end());
+        }
+        BakeStatistics& s = maps.front().statistics;
         s.rays += rays_;
         for (std::size_t state = 0; state < states_.size(); ++state) {
             const std::size_t texels = states_[state];
@@ -105,20 +125,36 @@ private:
     }
     void mark(std::size_t texel, int flag) { out_.states[texel] = std::uint8_t(out_.states[texel] | flag); }
 
+    // The number of components whose sums make the values of a kind; the others do not vary.
+    static std::size_t planesOf(BakeKind kind) { return kind == BakeKind::id ? 0 : holdsScalars(kind) ? 1 : 3; }
+
     // Makes values of the sums of a map, and puts them into it.
-    void finish(std::size_t m, int firstRow)
+    void finish(std::size_t m)
     {
-        std::vector<glm::vec3>& values = sums_[m];
-        for (std::size_t i = 0; i < values.size(); ++i)
-            if (found_[i] > 0)
-                values[i] = kinds_[m] == BakeKind::id
-                    ? glm::vec3(mostFrequent({&ids_[i * samplesPerTexel()], found_[i]}), 0, 1)
-                    : texelValue(kinds_[m], values[i], found_[i]);
-        if (!stores_[m])
-            std::copy(values.begin(), values.end(), maps_[m].values.begin() + std::ptrdiff_t(base_));
-        const auto width = std::size_t(out_.width);
-        for (std::size_t i = 0; stores_[m] && i < values.size(); i += width)
-            stores_[m](firstRow + int(i / width), {&values[i], width}, maps_[m].image);
+        const BakeKind kind = kinds_[m];
+        const std::size_t texels = found_.size();
+        const float* const sums = sums_[m].data();
+        finished_.resize(filled_.size());
+        for (std::size_t i = 0; i < filled_.size(); ++i) {
+            const std::size_t texel = filled_[i] - base_;
+            finished_[i] = kind == BakeKind::id
+                ? glm::vec3(mostFrequent({&ids_[texel * samplesPerTexel()], found_[texel]}), 0, 1)
+                : holdsScalars(kind)
+                ? glm::vec3(sums[texel] / float(found_[texel]), 0, 1)
+                : texelValue(kind, {sums[texel], sums[texels + texel], sums[2 * texels + texel]}, found_[texel]);
+        }
+        for (std::size_t i = 0; i < filled_.size() && kind == BakeKind::normal; ++i)
+            if (finished_[i].z < 0)
+                below_[m].push_back({filled_[i], finished_[i].z});
+        if (!stores_[m]) {
+            for (std::size_t i = 0; i < filled_.size(); ++i)
+                maps_[m].values[filled_[i]] = finished_[i];
+            return;
+        }
+        stores_[m](filled_, finished_, maps_[m].image);
+        for (std::size_t i = 0; i < filled_.size() && holdsDirections(kind); ++i)
+            if (finished_[i] == glm::vec3(0))
+                cancelled_[m].push_back(filled_[i]);
     }
 
     void bakePacket(std::span<const glm::ivec2> rasterTexels, std::span<const UvSample> samples)
@@ -141,29 +177,57 @@ private:
         Lanes<int> further{};
         rays_ += baker_.findFurther(probes, hits, further);
         checkForNearer();
-        std::array<std::size_t, kLanes> texels, before; // of the block; samples that were found in them
+        std::array<Found, kLanes> all; // of each texel that something was found for
+        std::size_t count = 0;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const std::size_t texel = texelOf(rasterTexels[i]);
-            texels[i] = texel - base_;
-            int flags = samples[i].covers ? texelCovered : texelTouched;
-            if (hits.found(i))
-                before[i] = found_[texels[i]]++;
-            else
-                flags |= further[i] ? texelMissed | texelFurther : texelMissed;
-            mark(texel, flags);
+            mark(texel, samples[i].covers ? texelCovered : texelTouched);
+            if (!hits.found(i)) {
+                mark(texel, further[i] ? texelMissed | texelFurther : texelMissed);
+                continue;
+            }
+            std::size_t n = options_.samples > 1 ? count : 0; // else each is alone
+            while (n > 0 && all[n - 1].texel != texel - base_)
+                --n;
+            if (n == 0) {
+                all[count] = {texel - base_, found_[texel - base_], 0, {}};
+                n = ++count;
+            }
+            all[n - 1].lanes[all[n - 1].count++] = std::uint8_t(i);
+            ++found_[texel - base_];
         }
         for (std::size_t m = 0; m < kinds_.size(); ++m)
-            for (std::size_t i = 0; i < samples.size(); ++i) {
-                if (!hits.found(i))
-                    continue;
-                const glm::vec3 value = values_[m].at(i);
-                if (kinds_[m] == BakeKind::id)
-                    ids_[texels[i] * samplesPerTexel() + before[i]] = value.x;
-                else
-                    sums_[m][texels[i]] += value;
-                if (kinds_[m] == BakeKind::normal && value.z < 0)
-                    mark(base_ + texels[i], texelNegative);
+            add(m, {all.data(), count});
+    }
+
+    struct Found {           // the samples of a texel in a packet that hit something
+        std::size_t texel;   // of the block
+        std::uint8_t before; // such samples in earlier packets
+        std::uint8_t count;
+        std::array<std::uint8_t, kLanes> lanes;
+    };
+
+    // Adds the values of a packet in one map to the sums of its texels, in the order of the samples.
+    void add(std::size_t m, std::span<const Found> all)
+    {
+        const float* const components[3] = {values_[m].x, values_[m].y, values_[m].z};
+        for (std::size_t plane = 0; plane < planesOf(kinds_[m]); ++plane) {
+            float* const sums = sums_[m].data() + plane * found_.size();
+            for (const Found& found : all) {
+                float sum = found.before > 0 ? sums[found.texel] : 0.0f;
+                for (std::size_t k = 0; k < found.count; ++k)
+                    sum += components[plane][found.lanes[k]];
+                sums[found.texel] = sum;
             }
+        }
+        if (kinds_[m] != BakeKind::id && kinds_[m] != BakeKind::normal)
+            return;
+        for (const Found& found : all)
+            for (std::size_t k = 0; k < found.count; ++k)
+                if (kinds_[m] == BakeKind::id)
+                    ids_[found.texel * samplesPerTexel() + found.before + k] = values_[m].x[found.lanes[k]];
+                else if (values_[m].z[found.lanes[k]] < 0)
+                    mark(base_ + found.texel, texelNegative);
     }
 
     // Marks texels for which another surface is nearer. A check costs a ray, so only some packets are checked: those
@@ -221,14 +285,19 @@ private:
     const UvRaster& raster_;
     const BakeOptions& options_;
     const std::vector<BakeKind>& kinds_;
-    const std::vector<StoreRow>& stores_; // of the maps that get images
+    const std::vector<StoreTexels>& stores_; // of the maps that get images
     std::vector<Baked>& maps_;
     Baked& out_; // the first
     UvFirsts samples_;
-    std::size_t base_ = 0;                     // the block's first texel
-    std::vector<std::vector<glm::vec3>> sums_; // of each map per texel: sum over its samples
-    std::vector<std::uint8_t> found_;          // per texel: number of samples that hit something
-    std::vector<float> ids_;                   // per texel: those of these samples
+    std::size_t base_ = 0;                 // the block's first texel
+    std::vector<std::vector<float>> sums_; // of each map: a plane of a component after the other; per texel the sum
+                                           // over its samples, if any hit something
+    std::vector<std::uint8_t> found_;      // per texel: number of samples that hit something
+    std::vector<std::uint32_t> filled_;    // texels of the map with such samples
+    std::vector<glm::vec3> finished_;      // their values in one map
+    std::vector<std::vector<std::uint32_t>> cancelled_; // of each map, as in Baked
+    std::vector<std::vector<Baked::Below>> below_;
+    std::vector<float> ids_; // per texel: those of these samples
     LowPoints points_;
     std::array<Traced, 4> traced_; // the most recent packets
     std::size_t packet_ = 0;       // number of packets of the block so far
@@ -332,7 +401,7 @@ Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& hi
     const UvRaster raster({low.texcoords, *indices}, size.x, size.y, options.tile);
     const Baker baker(low, high, options);
     std::vector<Baked> maps(kinds.size(), {options.width, options.height, {}, {}, {}, high.box()});
-    std::vector<StoreRow> stores(kinds.size());
+    std::vector<StoreTexels> stores(kinds.size());
     Baked& out = maps.front();
     out.states.resize(texels);
     parallelFor(std::size_t(0), kinds.size(), [&](std::size_t m) {
@@ -341,10 +410,10 @@ Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& hi
             maps[m].values.resize(texels);
             return;
         }
-        stores[m] = rowStore(maps[m], kinds[m], *images[m]);
-        maps[m].image = makeImage(options.width, options.height, images[m]->type);
+        stores[m] = texelStore(maps[m], kinds[m], *images[m]);
+        maps[m].image = emptyImage(maps[m], kinds[m], *images[m]);
     });
-    if (std::ranges::any_of(stores, [](const StoreRow& store) { return bool(store); }))
+    if (std::ranges::any_of(stores, [](const StoreTexels& store) { return bool(store); }))
         out.found.resize(texels);
     std::mutex counting;
     CountedSteps done(progress, std::size_t(options.height)); // counts rows
@@ -359,11 +428,16 @@ Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& hi
                     done.step();
             }
             const std::lock_guard lock(counting);
-            baking.addTo(out.statistics);
+            baking.addTo(maps);
         });
     });
     if (done.stopped())
         return stoppedError();
+    for (Baked& map : maps) {
+        std::sort(map.cancelled.begin(), map.cancelled.end());
+        std::sort(map.below.begin(), map.below.end(),
+                  [](const Baked::Below& a, const Baked::Below& b) { return a.texel < b.texel; });
+    }
     BakeStatistics& s = out.statistics;
     countTriangles(low, s);
     s.rayDistance = baker.distance();

@@ -1,6 +1,7 @@
 // Bakes a detailed surface to a map on a simple one.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -32,12 +33,21 @@ struct Baked {
     Bounds box = {};                      // of the high surface
     float unit = 0;                       // curvature: radius, thickness: length, which is stored as 1
     Image image = {};                     // instead of the values: the map as storeBaked would store it
-    std::vector<std::uint8_t> found = {}; // of the first map, if any has an image: per texel, 1 with a value
+    std::vector<std::uint8_t> found = {}; // of the first map, if any has an image: per texel, 1 if a ray hit something
+    std::vector<std::uint32_t> cancelled = {}; // with an image: texels without a value though rays hit something, since
+                                               // their directions cancel out; in increasing order
+    struct Below {
+        std::uint32_t texel;
+        float z;
+    };
+    std::vector<Below> below = {}; // of a map of normals: texels that point below the horizon; in increasing order
 
     // Whether texel i has a value. first: the first map of the bake.
     bool hasValue(const Baked& first, std::size_t i) const
     {
-        return values.empty() ? first.found[i] != 0 : values[i] != glm::vec3(0);
+        return values.empty() ? first.found[i] != 0
+                && (cancelled.empty() || !std::binary_search(cancelled.begin(), cancelled.end(), std::uint32_t(i)))
+                              : values[i] != glm::vec3(0);
     }
 };
 
@@ -52,7 +62,7 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
 
 // The same for several kinds, of which options.kind need not be one: rays that find the high surface are traced once.
 // Each map is what bake() gives for its kind, to the byte. images: how each map is stored that gets Baked::image, which
-// takes less memory and time; empty: none. Not for directions, dithered maps and heights in integers.
+// takes less memory and time; empty: none. Not for dithered maps and heights in integers.
 Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                                     const std::vector<BakeKind>& kinds, const Progress& progress = {},
                                     const std::vector<std::optional<StoredAs>>& images = {});
@@ -84,9 +94,12 @@ Convention storedFormat(BakeKind kind, Convention format);
 // scalars as grey. Texels without a value become flat normals or zero.
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as);
 
-// Stores rows of values of one map. baked: its size, box and unit, and for heights in integers its values.
-using StoreRow = std::function<void(int y, std::span<const glm::vec3> values, Image& image)>;
-StoreRow rowStore(const Baked& baked, BakeKind kind, const StoredAs& as);
+// The image that storeBaked makes of a map without values, and what then stores the values of some texels in it, not
+// dithered. baked: its size, box and unit. Not for heights in integers.
+Image emptyImage(const Baked& baked, BakeKind kind, const StoredAs& as);
+using StoreTexels =
+    std::function<void(std::span<const std::uint32_t> texels, std::span<const glm::vec3> values, Image& image)>;
+StoreTexels texelStore(const Baked& baked, BakeKind kind, const StoredAs& as);
 
 // The channels of a packed map as one image, each as storeBaked stores its kind. maps: of these kinds; images in them
 // have the type of `as`.

@@ -39,17 +39,21 @@ template<class Farthest>
 std::size_t anyAround(const HighSurface& high, const Probes& probes, Lanes<int>& any, const Farthest& farthest)
 {
     any.fill(0);
-    Probes lines = probes;
+    Lanes<float> lengths;
     std::size_t rays = 0;
+    for (std::size_t i = 0; i < probes.count; ++i) {
+        lengths[i] = farthest(i);
+        rays += lengths[i] < 0 ? 0 : 1;
+    }
+    if (rays == 0) // nearly always, where all rays hit something
+        return 0;
+    Probes lines = probes;
     for (std::size_t i = 0; i < probes.count; ++i)
-        if (const float length = farthest(i); length < 0) {
+        if (lengths[i] < 0)
             lines.direction.set(i, glm::vec3(0));
-        } else {
-            lines.before[i] = lines.reach[i] = length;
-            ++rays;
-        }
-    if (rays > 0)
-        high.anyBetween(lines, any);
+        else
+            lines.before[i] = lines.reach[i] = lengths[i];
+    high.anyBetween(lines, any);
     return rays;
 }
 

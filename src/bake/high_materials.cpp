@@ -21,6 +21,12 @@ struct HighMaterials::Corners {
     float b1, b2;
 };
 
+// The texels that the last map was read from.
+struct HighMaterials::Square {
+    int number = -1;
+    TexelSquare texels;
+};
+
 namespace {
 
 float linearOf(float srgb) { return f32::cotan_srgb_to_linear(srgb); }
@@ -148,6 +154,7 @@ struct HighMaterials::Maker {
             part.baseColorMap = mapOf(material.baseColorMap, *of, wants(BakeKind::baseColor), /*isColor*/ true);
             part.surfaceMap = mapOf(material.metallicRoughnessMap, *of, readsSurface, /*isColor*/ false);
             part.emissiveMap = mapOf(material.emissiveMap, *of, wants(BakeKind::emissive), /*isColor*/ true);
+            numberSquares(part);
             if (all.idBy_ == IdBy::object) {
                 part.id = colorOf(objectName(scene, instance));
             } else if (all.idBy_ == IdBy::material) {
@@ -200,30 +207,51 @@ Result<HighMaterials> HighMaterials::make(std::vector<Scene>& scenes, const High
     return all;
 }
 
+void HighMaterials::numberSquares(Part& part)
+{
+    const auto isSame = [](const Map& a, const Map& b) {
+        const Texture &s = a.texture, &t = b.texture;
+        return a.image && b.image && a.image->width == b.image->width && a.image->height == b.image->height
+            && uvSetOf(s) == uvSetOf(t) && s.uRow == t.uRow && s.vRow == t.vRow
+            && s.sampler.magnify == t.sampler.magnify && s.sampler.wrapU == t.sampler.wrapU
+            && s.sampler.wrapV == t.sampler.wrapV;
+    };
+    part.surfaceMap.square = isSame(part.surfaceMap, part.baseColorMap) ? 0 : 1;
+    part.emissiveMap.square = isSame(part.emissiveMap, part.baseColorMap) ? 0
+        : isSame(part.emissiveMap, part.surfaceMap)                       ? part.surfaceMap.square
+                                                                          : 2;
+}
+
 // The red, green and blue of a map, of colours in linear light; 1 without.
-glm::vec3 HighMaterials::texelAt(const Map& map, const Part& part, const Corners& at) const
+glm::vec3 HighMaterials::texelAt(const Map& map, const Part& part, const Corners& at, Square& square) const
 {
     if (!map.image)
         return glm::vec3(1);
-    const std::vector<glm::vec2>& all = part.attributes->uv[uvSetOf(map.texture)];
-    const auto corner = [&](std::size_t k) { return glm::dvec2(all[at.vertex[k]]); };
-    const glm::dvec2 raw =
-        corner(0) + (corner(1) - corner(0)) * double(at.b1) + (corner(2) - corner(0)) * double(at.b2);
-    const auto row = [&](const glm::dvec3& r) {
-        const double x = r.x * raw.x + r.y * raw.y + r.z;
-        return std::abs(x) <= double(kFarthestUv) ? x : 0.0; // as renderers do
-    };
-    const glm::dvec2 uv(row(map.texture.uRow), row(map.texture.vRow));
     const Image& image = *map.image;
-    const Sampler& sampler = map.texture.sampler;
-    const auto read = [&](const auto& texel) {
-        return sampler.magnify == Filter::linear ? bilinearTexel(image.width, image.height, sampler, uv, texel)
-                                                 : nearestTexel(image.width, image.height, sampler, uv, texel);
-    };
+    if (square.number != map.square) {
+        const std::vector<glm::vec2>& all = part.attributes->uv[uvSetOf(map.texture)];
+        const auto corner = [&](std::size_t k) { return glm::dvec2(all[at.vertex[k]]); };
+        const glm::dvec2 raw =
+            corner(0) + (corner(1) - corner(0)) * double(at.b1) + (corner(2) - corner(0)) * double(at.b2);
+        const auto row = [&](const glm::dvec3& r) {
+            const double x = r.x * raw.x + r.y * raw.y + r.z;
+            return std::abs(x) <= double(kFarthestUv) ? x : 0.0; // as renderers do
+        };
+        const glm::dvec2 uv(row(map.texture.uRow), row(map.texture.vRow));
+        const Sampler& sampler = map.texture.sampler;
+        square.number = map.square;
+        if (sampler.magnify == Filter::linear)
+            square.texels = texelsAround(image.width, image.height, sampler, uv);
+        else
+            nearestTexel(image.width, image.height, sampler, uv, [&](int x, int y) {
+                square.texels = {x, x, y, y, 0, 0};
+                return 0;
+            });
+    }
     if (image.type != PixelType::unorm8)
-        return read([&](int x, int y) { return componentsOf(image, map.isColor, x, y); });
+        return mixTexels(square.texels, [&](int x, int y) { return componentsOf(image, map.isColor, x, y); });
     const std::array<float, 256>& values = map.isColor ? kLinearBytes : kFractionBytes;
-    return read([&](int x, int y) {
+    return mixTexels(square.texels, [&](int x, int y) {
         const std::uint8_t* const c = image.bytes8() + 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
         return glm::vec3(values[c[0]], values[c[1]], values[c[2]]);
     });
@@ -237,11 +265,12 @@ void HighMaterials::read(const Hits& hits, MaterialValues& values) const
         const Part& part = parts_[hits.instance[lane]];
         const Corners at{&part.indices[3 * std::size_t(hits.triangle[lane])], hits.b1[lane], hits.b2[lane]};
         const std::vector<glm::vec4>& colors = part.attributes->colors;
-        const glm::vec3 base = part.baseColor * texelAt(part.baseColorMap, part, at);
+        Square square;
+        const glm::vec3 base = part.baseColor * texelAt(part.baseColorMap, part, at, square);
         values.baseColor.set(
             lane, colors.empty() ? base : base * glm::vec3(atVertices(colors.data(), at.vertex, at.b1, at.b2)));
-        values.emissive.set(lane, part.emissive * texelAt(part.emissiveMap, part, at));
-        const glm::vec3 surface = texelAt(part.surfaceMap, part, at);
+        values.emissive.set(lane, part.emissive * texelAt(part.emissiveMap, part, at, square));
+        const glm::vec3 surface = texelAt(part.surfaceMap, part, at, square);
         values.surface.set(lane, {1, part.roughness * surface.y, part.metallic * surface.z});
         const float b0 = 1 - at.b1 - at.b2;
         const std::size_t nearest = b0 >= at.b1 && b0 >= at.b2 ? 0 : at.b1 >= at.b2 ? 1 : 2;

@@ -51,6 +51,7 @@ private:
         const Image* image = nullptr; // null: none
         Texture texture;
         bool isColor = false;
+        int square = 0; // maps of a part with the same number read the same texels at each point
     };
     struct Part { // an instance, with the index of Hits::instance
         std::span<const std::uint32_t> indices;
@@ -63,7 +64,10 @@ private:
     struct Corners;
     struct Maker;
 
-    glm::vec3 texelAt(const Map& map, const Part& part, const Corners& at) const;
+    struct Square;
+
+    static void numberSquares(Part& part);
+    glm::vec3 texelAt(const Map& map, const Part& part, const Corners& at, Square& square) const;
 
     std::deque<Image> images_; // deques, because parts_ points into them
     std::deque<Attributes> attributes_;

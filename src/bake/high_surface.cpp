@@ -129,11 +129,13 @@ struct HighSurface::State {
         // Minimum length of an interpolated normal that counts.
         const float least = normals == HighNormals::face ? std::numeric_limits<float>::infinity() : 1e-6f;
         // All lanes, so that the loop vectorises; the results of lanes without a hit are never read.
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            const glm::vec3 n = hits.normal.at(i), face = glm::normalize(hits.face.at(i));
-            const float length = glm::length(n);
-            hits.normal.set(i, length > least ? n / length : face);
-        }
+        runLanes([&] {
+            for (std::size_t i = 0; i < kLanes; ++i) {
+                const glm::vec3 n = hits.normal.at(i), face = glm::normalize(hits.face.at(i));
+                const float length = glm::length(n);
+                hits.normal.set(i, length > least ? n / length : face);
+            }
+        });
         if (normals == HighNormals::curved)
             for (std::size_t i = 0; i < probes.count; ++i)
                 if (hits.found(i)) {

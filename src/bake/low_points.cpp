@@ -51,8 +51,7 @@ void gather(const LowSurface& s, std::uint32_t triangle, Run run, FrameInputs& i
     }
 }
 
-// Inlines all calls into the loop, which the compiler otherwise does not vectorise.
-template<class Make> [[gnu::flatten]] void makeEach(LowPoints& points, const Make& make)
+template<class Make> void makeEach(LowPoints& points, const Make& make)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
         const f32::cotan_frame f = make(i);
@@ -62,8 +61,7 @@ template<class Make> [[gnu::flatten]] void makeEach(LowPoints& points, const Mak
     }
 }
 
-template<class Make>
-[[gnu::flatten]] void makeFromDifferences(const FrameInputs& in, LowPoints& points, const Make& make)
+template<class Make> void makeFromDifferences(const FrameInputs& in, LowPoints& points, const Make& make)
 {
     makeEach(points, [&](std::size_t i) {
         return make(points.normal.at(i), in.dpdx.at(i), in.dpdy.at(i), glm::vec2(in.ux[i], in.vx[i]),
@@ -94,7 +92,7 @@ void makeFrames(Frame frame, const FrameInputs& in, LowPoints& points)
 }
 
 // Normalises each vector; zero stays zero.
-[[gnu::flatten, gnu::noinline]] void normalise(const Lanes3& raw, Lanes3& unit)
+void normalise(const Lanes3& raw, Lanes3& unit)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
         const glm::vec3 n = raw.at(i);
@@ -118,19 +116,23 @@ void pointsOf(const LowSurface& surface, std::span<const UvSample> samples, LowP
             ++run.to;
         gather(surface, triangle, run, in, points);
     }
-    normalise(in.raw, points.normal);
-    makeFrames(surface.frame, in, points);
+    runLanes([&] {
+        normalise(in.raw, points.normal);
+        makeFrames(surface.frame, in, points);
+    });
 }
 
-[[gnu::flatten]] void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels)
+void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels)
 {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-        f32::cotan_frame f;
-        f.t = points.t.at(i);
-        f.b = points.b.at(i);
-        f.n = points.n.at(i);
-        texels.set(i, f32::cotan_encode(f, targets.at(i)));
-    }
+    runLanes([&] {
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            f32::cotan_frame f;
+            f.t = points.t.at(i);
+            f.b = points.b.at(i);
+            f.n = points.n.at(i);
+            texels.set(i, f32::cotan_encode(f, targets.at(i)));
+        }
+    });
 }
 
 } // namespace cotan

@@ -24,13 +24,13 @@ constexpr double kSameDegrees = 5; // normals that differ less share a texel wit
 constexpr int kGrid = 256;         // cells along a map's side at which shared texels are compared
 constexpr std::size_t kMaxProblems = 3;
 
-// The texels of a map, or cells of several texels, that a problem is about; the degrees are 0 where unknown.
+// The texels of a map, or cells of several texels, that a problem is about.
 struct Marks {
     int width = 0, height = 0;
     std::vector<std::uint8_t> bad;
-    std::vector<float> degrees;
+    std::vector<float> degrees; // of cells
 
-    Marks(int w, int h) : width(w), height(h), bad(std::size_t(w) * std::size_t(h)), degrees(bad.size()) {}
+    Marks(int w, int h) : width(w), height(h), bad(std::size_t(w) * std::size_t(h)) {}
     bool at(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height && bad[index(x, y)]; }
     std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
 };
@@ -50,8 +50,8 @@ bool isMiddle(const Marks& m, int x, int y)
     return true;
 }
 
-// Unmarks narrow areas, and measures the others.
-Areas areasOf(Marks& m)
+// Unmarks narrow areas, and measures the others. degreesOf: of a mark with this index.
+template<class Degrees> Areas areasOf(Marks& m, const Degrees& degreesOf)
 {
     constexpr std::uint8_t kCounted = 2;
     Areas areas;
@@ -67,7 +67,7 @@ Areas areasOf(Marks& m)
                 const glm::ivec2 p = open.back();
                 open.pop_back();
                 ++size;
-                areas.degrees += double(m.degrees[m.index(p.x, p.y)]);
+                areas.degrees += double(degreesOf(m.index(p.x, p.y)));
                 for (const glm::ivec2 d : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}})
                     if (const glm::ivec2 q = p + d; m.at(q.x, q.y) && m.bad[m.index(q.x, q.y)] == 1) {
                         m.bad[m.index(q.x, q.y)] = kCounted;
@@ -86,16 +86,26 @@ Areas areasOf(Marks& m)
     return areas;
 }
 
-// The areas of texels for which isBad returns the degrees, or below 0.
+// The areas of the texels for which isBad(index) holds.
 template<class Test> Areas areasWhere(const Baked& baked, const Test& isBad)
 {
     Marks marks(baked.width, baked.height);
     for (std::size_t i = 0; i < marks.bad.size(); ++i)
-        if (const float degrees = isBad(i); degrees >= 0) {
-            marks.bad[i] = 1;
-            marks.degrees[i] = degrees;
-        }
-    return areasOf(marks);
+        marks.bad[i] = isBad(i);
+    return areasOf(marks, [](std::size_t) { return 0.0f; });
+}
+
+// The areas of the texels of a map of normals that point below the horizon, by the degrees below it.
+Areas areasBelowHorizon(const Baked& normals)
+{
+    Marks marks(normals.width, normals.height);
+    for (const auto& [texel, z] : normals.below)
+        marks.bad[texel] = z < kHorizon;
+    return areasOf(marks, [&](std::size_t i) {
+        const auto below = std::lower_bound(normals.below.begin(), normals.below.end(), i,
+                                            [](const Baked::Below& b, std::size_t texel) { return b.texel < texel; });
+        return float(std::asin(double(std::min(-below->z, 1.0f))) * kDegrees);
+    });
 }
 
 // Marks cells of `step` texels in which two triangles want normals that differ, in the frame or in the world.
@@ -103,6 +113,7 @@ Marks disputes(const LowSurface& low, const Baker& baker, const std::vector<std:
                const BakeOptions& options, bool inWorld, int step)
 {
     Marks marks((options.width + step - 1) / step, (options.height + step - 1) / step);
+    marks.degrees.resize(marks.bad.size());
     const UvRaster raster({low.texcoords, indices}, marks.width, marks.height, options.tile);
     const UvLimits two{.maxPerTexel = 2, .accepts = [](const UvSample& s) { return s.covers; }};
     parallelRanges(0, marks.height, UvRaster::kBlockRows, [&](int begin, int end) {
@@ -200,7 +211,7 @@ std::vector<BakeProblem> problemsOf(const LowSurface& low, const HighSurface& hi
     std::vector<BakeProblem> problems;
     const auto lacks = [&](std::size_t i, int flags) {
         const int state = first.states[i] & (texelCovered | texelMissed | texelFurther);
-        return state == flags && !first.hasValue(first, i) ? 0.0f : -1.0f;
+        return state == flags && !first.hasValue(first, i);
     };
     if (s.missed > s.further)
         problems.push_back(problemOf(
@@ -210,14 +221,8 @@ std::vector<BakeProblem> problemsOf(const LowSurface& low, const HighSurface& hi
                                          return lacks(i, texelCovered | texelMissed | texelFurther);
                                      })));
     const auto normals = std::ranges::find(kinds, BakeKind::normal);
-    if (s.negative > 0 && normals != kinds.end()) {
-        const std::vector<glm::vec3>& values = maps[std::size_t(normals - kinds.begin())].values;
-        problems.push_back(problemOf(belowHorizon, areasWhere(first, [&](std::size_t i) {
-                                         const float z = values[i].z;
-                                         return z < kHorizon ? float(std::asin(double(std::min(-z, 1.0f))) * kDegrees)
-                                                             : -1.0f;
-                                     })));
-    }
+    if (s.negative > 0 && normals != kinds.end())
+        problems.push_back(problemOf(belowHorizon, areasBelowHorizon(maps[std::size_t(normals - kinds.begin())])));
     const auto drawn = s.twice > 0 ? indicesToDraw(low, {options.width, options.height})
                                    : Result<std::vector<std::uint32_t>>(std::vector<std::uint32_t>());
     if (drawn && !drawn->empty()) {
@@ -228,7 +233,8 @@ std::vector<BakeProblem> problemsOf(const LowSurface& low, const HighSurface& hi
         Marks marks(0, 0);
         withThreads(options.threads,
                     [&] { marks = disputes(low, Baker(low, high, options), *drawn, options, inWorld, step); });
-        problems.push_back(problemOf(disputed, areasOf(marks), std::size_t(step) * std::size_t(step), step));
+        problems.push_back(problemOf(disputed, areasOf(marks, [&](std::size_t i) { return marks.degrees[i]; }),
+                                     std::size_t(step) * std::size_t(step), step));
         problems.back().texels = std::min(problems.back().texels, s.twice);
         for (Baked& map : maps)
             map.statistics.disputed = problems.back().texels;

@@ -256,63 +256,46 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesys
 
 namespace {
 
-// kQuickPng, on 2048 x 2048 maps: files a third larger than with libpng's defaults, in a fifth of the time (180 ms).
-struct PngEffort {
-    int level, filters;
-};
-constexpr PngEffort kQuickPng{2, PNG_FILTER_UP};
-constexpr PngEffort kSmallPng{6, PNG_ALL_FILTERS}; // libpng's defaults
-
-// Takes the bytes of a PNG file.
-struct PngSink {
-    std::FILE* file = nullptr;               // closed by the caller
-    std::vector<std::byte>* bytes = nullptr; // if there is no file
-
-    // Returns false if the disk or the memory is full. No exception may pass through libpng.
-    bool take(const png_byte* source, std::size_t size) const
-    try {
-        if (file)
-            return std::fwrite(source, 1, size, file) == size;
-        const auto* const first = reinterpret_cast<const std::byte*>(source);
-        bytes->insert(bytes->end(), first, first + size);
-        return true;
-    } catch (const std::bad_alloc&) {
-        return false;
-    }
-};
-
 struct PngWriter {
-    PngSink sink;
+    std::vector<std::byte> bytes;   // of the file
     char message[kPngMessage] = ""; // set when a function returns false
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, message, onPngError, onPngWarning);
     png_infop info = png ? png_create_info_struct(png) : nullptr; // null: out of memory
 
-    explicit PngWriter(PngSink to) : sink(to) {}
+    PngWriter() = default;
     ~PngWriter() { png_destroy_write_struct(&png, &info); }
     PngWriter(const PngWriter&) = delete;
     PngWriter& operator=(const PngWriter&) = delete;
 };
 
+// No exception may pass through libpng.
+bool append(std::span<const std::byte> more, std::vector<std::byte>& bytes)
+try {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+    return true;
+} catch (const std::bad_alloc&) {
+    return false;
+}
+
 void onWrite(png_structp png, png_bytep source, std::size_t size)
 {
-    if (!static_cast<const PngSink*>(png_get_io_ptr(png))->take(source, size))
-        png_error(png, "writing failed");
+    auto* const bytes = static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
+    if (!append({reinterpret_cast<const std::byte*>(source), size}, *bytes))
+        png_error(png, "out of memory");
 }
 
 void onFlush(png_structp) {}
 
 // Writes the header, for unorm8 or unorm16. Without format.alpha, the alpha of the rows is dropped.
-bool startPng(PngWriter& writer, const RowFormat& format, PngEffort effort)
+bool startPng(PngWriter& writer, const RowFormat& format)
 {
     png_structp png = writer.png;
     if (setjmp(png_jmpbuf(png)))
         return false;
     const bool wide = format.type == PixelType::unorm16;
-    png_set_write_fn(png, &writer.sink, onWrite, onFlush);
+    png_set_write_fn(png, &writer.bytes, onWrite, onFlush);
     // libpng's default limit is 1,000,000 pixels per side.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    png_set_compression_level(png, effort.level);
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, effort.filters);
     png_set_IHDR(png, writer.info, png_uint_32(format.width), png_uint_32(format.height), wide ? 16 : 8,
                  format.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -350,85 +333,20 @@ bool endPng(PngWriter& writer)
     return true;
 }
 
-Status writeTo(PngSink sink, const Image& image, const std::string& name, PngEffort effort)
-{
-    bool written = false;
-    std::string why = "out of memory";
-    {
-        PngWriter writer(sink);
-        if (writer.info) {
-            const RowFormat format = {image.width, image.height, image.type, !isOpaque(image), false, image.frame};
-            written = startPng(writer, format, effort)
-                && writePngRows(writer, image.bytes8(), std::size_t(image.height),
-                                std::size_t(image.width) * image.bytesPerPixel())
-                && endPng(writer);
-            why = writer.message;
-        }
-    }
-    if (!written)
-        return outputError(fmt::format("{}: {}", name, why));
-    return Done{};
-}
-
-class PngOut : public RowWriter {
-public:
-    PngOut(OpenFile file, std::string name) : file_(std::move(file)), writer_({file_.get()}), name_(std::move(name)) {}
-
-    Status start(const RowFormat& format)
-    {
-        if (!writer_.info)
-            return outputError(fmt::format("{}: out of memory", name_));
-        return check(startPng(writer_, format, kQuickPng));
-    }
-    Status write(const Image& strip) override
-    {
-        return check(writePngRows(writer_, strip.bytes8(), std::size_t(strip.height),
-                                  std::size_t(strip.width) * strip.bytesPerPixel()));
-    }
-    Status finish() override
-    {
-        COTAN_CHECK(check(endPng(writer_)));
-        if (std::fclose(file_.release()) != 0)
-            return outputError(fmt::format("{}: writing failed", name_));
-        return Done{};
-    }
-
-private:
-    Status check(bool fine) const
-    {
-        if (!fine)
-            return outputError(
-                fmt::format("{}: expected to write the image, libpng found: {}", name_, writer_.message));
-        return Done{};
-    }
-
-    OpenFile file_;
-    PngWriter writer_;
-    std::string name_;
-};
-
 } // namespace
-
-Status writePng(OpenFile file, const Image& image, const std::string& name)
-{
-    COTAN_CHECK(writeTo({.file = file.get()}, image, name, kQuickPng));
-    if (std::fclose(file.release()) != 0)
-        return outputError(fmt::format("{}: writing failed", name));
-    return Done{};
-}
 
 Result<std::vector<std::byte>> encodePng(const Image& image)
 {
-    std::vector<std::byte> bytes;
-    COTAN_CHECK(writeTo({.bytes = &bytes}, image, image.name, kSmallPng));
-    return bytes;
-}
-
-Result<std::unique_ptr<RowWriter>> createPngRows(OpenFile file, const RowFormat& format, const std::string& name)
-{
-    auto rows = std::make_unique<PngOut>(std::move(file), name);
-    COTAN_CHECK(rows->start(format));
-    return std::unique_ptr<RowWriter>(std::move(rows));
+    PngWriter writer;
+    const RowFormat format = {image.width, image.height, image.type, !isOpaque(image), false, image.frame};
+    if (!writer.info)
+        return outputError(fmt::format("{}: out of memory", image.name));
+    if (!startPng(writer, format)
+        || !writePngRows(writer, image.bytes8(), std::size_t(image.height),
+                         std::size_t(image.width) * image.bytesPerPixel())
+        || !endPng(writer))
+        return outputError(fmt::format("{}: {}", image.name, writer.message));
+    return std::move(writer.bytes);
 }
 
 } // namespace cotan

@@ -92,18 +92,37 @@ template<class Texel> auto nearestTexel(int width, int height, const Sampler& s,
     return texel(wrapTexel(x, width, s.wrapU), wrapTexel(y, height, s.wrapV));
 }
 
-// Bilinear interpolation of the four texels around uv. Texel centres are at half-integers.
-template<class Texel> auto bilinearTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
+// The texels around a point, and how far it is from the first of them towards the others.
+struct TexelSquare {
+    int x0 = 0, x1 = 0, y0 = 0, y1 = 0; // columns and rows
+    float kx = 0, ky = 0;               // from 0 to 1
+};
+
+// Texel centres are at half-integers. uv: at most kFarthestUv from zero.
+inline TexelSquare texelsAround(int width, int height, const Sampler& s, glm::dvec2 uv)
 {
     const double u = uv.x * width - 0.5, v = uv.y * height - 0.5;
     const double fu = std::floor(u), fv = std::floor(v);
     const auto x = std::int64_t(fu), y = std::int64_t(fv);
-    const int x0 = wrapTexel(x, width, s.wrapU), x1 = wrapTexel(x + 1, width, s.wrapU);
-    const int y0 = wrapTexel(y, height, s.wrapV), y1 = wrapTexel(y + 1, height, s.wrapV);
-    const float kx = float(u - fu), ky = float(v - fv);
-    const auto top = glm::mix(texel(x0, y0), texel(x1, y0), kx);
-    const auto bottom = glm::mix(texel(x0, y1), texel(x1, y1), kx);
-    return glm::mix(top, bottom, ky);
+    return {wrapTexel(x, width, s.wrapU),
+            wrapTexel(x + 1, width, s.wrapU),
+            wrapTexel(y, height, s.wrapV),
+            wrapTexel(y + 1, height, s.wrapV),
+            float(u - fu),
+            float(v - fv)};
+}
+
+template<class Texel> auto mixTexels(const TexelSquare& s, Texel texel)
+{
+    const auto top = glm::mix(texel(s.x0, s.y0), texel(s.x1, s.y0), s.kx);
+    const auto bottom = glm::mix(texel(s.x0, s.y1), texel(s.x1, s.y1), s.kx);
+    return glm::mix(top, bottom, s.ky);
+}
+
+// Bilinear interpolation of the four texels around uv.
+template<class Texel> auto bilinearTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
+{
+    return mixTexels(texelsAround(width, height, s, uv), texel);
 }
 
 // ---- normals ---------------------------------------------------------------------------------

@@ -68,7 +68,7 @@ Copies copiesOf(const glm::dvec2 (&uv)[3], double area)
 // The first texel in [x, last] that may get a sample; last + 1 if none may. full: if null, all may.
 int nextFree(const std::uint8_t* full, int x, int last)
 {
-    if (!full || x > last)
+    if (!full || x > last || full[x] == 0)
         return x;
     const void* const found = std::memchr(full + x, 0, std::size_t(last - x + 1));
     return found ? int(static_cast<const std::uint8_t*>(found) - full) : last + 1;
