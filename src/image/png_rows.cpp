@@ -15,7 +15,6 @@
 #include "core/loops.hpp"
 #include "core/try.hpp"
 #include "image/checks.hpp"
-#include "image/pixel_deflate.hpp"
 
 namespace cotan {
 
@@ -26,6 +25,23 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t kPartBytes = 1 << 18; // of filtered rows that are compressed on their own
 constexpr std::size_t kPartsAtOnce = 32;
 constexpr std::uint8_t kFilterUp = 2; // each byte minus that above it
+constexpr int kLevel = 2; // a quarter of the time of level 6, for files that are a quarter larger
+
+// Appends rows as blocks of deflate that end on a whole byte; none is the last block of a stream.
+void deflateRows(const Bytes& rows, Bytes& packed)
+{
+    z_stream stream{};
+    deflateInit2(&stream, kLevel, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL - 1, Z_DEFAULT_STRATEGY);
+    const std::size_t begin = packed.size();
+    packed.resize(begin + deflateBound(&stream, uLong(rows.size())) + 16); // the bound is for Z_FINISH
+    stream.next_in = const_cast<Bytef*>(rows.data());
+    stream.avail_in = uInt(rows.size());
+    stream.next_out = &packed[begin];
+    stream.avail_out = uInt(packed.size() - begin);
+    deflate(&stream, Z_SYNC_FLUSH);
+    packed.resize(packed.size() - stream.avail_out);
+    deflateEnd(&stream);
+}
 
 void appendNumber(std::uint32_t number, Bytes& bytes)
 {
@@ -50,7 +66,9 @@ void endChunk(std::size_t begin, Bytes& bytes)
     appendNumber(std::uint32_t(crc32(0, &bytes[begin + 4], uInt(data + 4))), bytes);
 }
 
-// Copies pixels without their alpha, unless Kept is Stored. Writes up to Stored - Kept bytes beyond the last.
+constexpr std::size_t kWrittenAhead = 2; // bytes that copyPixels may write beyond the last pixel
+
+// Copies pixels without their alpha, unless Kept is all of them. Writes up to kWrittenAhead bytes beyond the last.
 template<class Pixel, std::size_t Kept> void copyPixels(const std::uint8_t* from, std::size_t count, std::uint8_t* to)
 {
     for (std::size_t i = 0; i < count; ++i, from += sizeof(Pixel), to += Kept) {
@@ -148,7 +166,7 @@ private:
 
     Part packed(const Image& strip, std::size_t begin, std::size_t end) const
     {
-        Bytes rows(rowBytes() * (end - begin) + kReadAhead), off(width_ * storedBytes_);
+        Bytes rows(rowBytes() * (end - begin) + kWrittenAhead), off(width_ * storedBytes_);
         for (std::size_t y = begin; y < end; ++y) {
             const std::uint8_t *const row = rowOf(strip, y), *const above = y > 0 ? rowOf(strip, y - 1) : above_.data();
             for (std::size_t i = 0; i < off.size(); ++i)
@@ -163,10 +181,11 @@ private:
             }
         }
         Part part;
-        part.size = rows.size() - kReadAhead;
+        rows.resize(rows.size() - kWrittenAhead);
+        part.size = rows.size();
         part.sum = adler32(adler32(0, nullptr, 0), rows.data(), uInt(part.size));
         const std::size_t chunk = beginChunk("IDAT", part.chunk);
-        deflatePixels({rows.data(), part.size}, rowBytes(), pixelBytes_, part.chunk);
+        deflateRows(rows, part.chunk);
         endChunk(chunk, part.chunk);
         return part;
     }
