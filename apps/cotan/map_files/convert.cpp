@@ -64,8 +64,9 @@ Result<Image> convertWhole(const std::filesystem::path& file, const RecodeSettin
 Status writeTexture(const std::filesystem::path& out, const Image& map, const Convention& stored, const TexelCode& code,
                     const ConvertFileOptions& o, TextureLevel first, ConvertedFile& done)
 {
-    COTAN_TRY(made, finishTexture(map, stored, code, std::move(first), code == TexelCode::rgba8 ? nullptr : &map,
-                                  {.from = stored, .to = o.to, .file = out, .mips = o.mips}));
+    COTAN_TRY(made,
+              finishTexture(map, stored, code, std::move(first), code == TexelCode::rgba8 ? nullptr : &map,
+                            {.from = stored, .to = o.to, .file = out, .mips = o.mips}));
     done.cost = made->cost;
     return writeFileWhole(out, {reinterpret_cast<const char*>(made->bytes.data()), made->bytes.size()});
 }

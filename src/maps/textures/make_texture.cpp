@@ -27,8 +27,8 @@ Result<MadeTexture> makeTexture(Image map, const TextureSettings& s)
     return finishTexture(stored, taken, *code, *std::move(first), &map, s);
 }
 
-Result<MadeTexture> finishTexture(const Image& image, const Convention& taken, const TexelCode& code, TextureLevel first,
-                                  const Image* map, const TextureSettings& s)
+Result<MadeTexture> finishTexture(const Image& image, const Convention& taken, const TexelCode& code,
+                                  TextureLevel first, const Image* map, const TextureSettings& s)
 {
     std::vector<TextureLevel> levels{std::move(first)};
     if (s.mips)
