@@ -75,7 +75,7 @@ export function modelFunctions(library, host, flipGreen) {
       return isKtx2(bytes) ? decodeKtx2(bytes, name) : decode(bytes, name);
     } catch (error) {
       const lacks = /not built with (\w+)/.exec(error.message)?.[1];
-      throw lacks ? new CotanError('unavailable', `${name}: KTX2 with ${kPackings[lacks] ?? 'BC blocks'} is read by the command line, not here`) : error;
+      throw lacks ? new CotanError('unavailable', `${name}: KTX2 with ${kPackings[lacks] ?? 'BC6H'} is read by the command line, not here`) : error;
     }
   };
   const decodeImage = async (bytes, name = 'image') => decodeBy(decodeOther, bytesOf(bytes, 'bytes'), name);
