@@ -81,6 +81,10 @@ std::string foreignKtx2(std::span<const std::byte> bytes);
 // Names what this build lacks the library for: "Zstandard", "zlib", "BC6H". Empty for all other files.
 std::string lackedByKtx2(std::span<const std::byte> bytes);
 
+// The word of --compress for the blocks of a DDS or KTX2 file, of which only the header is read. Empty: another file,
+// pixels, or blocks that no word names, such as BC1 and ETC.
+std::string blockName(std::span<const std::byte> file);
+
 // As decodeImage: the largest level. BC6H is passed to readOther as a DDS file.
 Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
