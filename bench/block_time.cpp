@@ -1,5 +1,6 @@
 // Compares BC5 of normal maps with libnvtt and libsquish, then BC7 with libsquish's BC1 and BC3 and with libastcenc's
-// ASTC 4x4: the mean and maximum error in degrees, and the time on one core.
+// ASTC 4x4: the mean and maximum error in degrees, and the time on one core. Without libnvtt and libsquish, and for EAC
+// RG11 and UASTC, Cotan's encoders alone.
 //   block_time FILE...
 #include <algorithm>
 #include <cmath>
@@ -14,13 +15,17 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
+#ifdef COTAN_OTHER_ENCODERS
 #include <nvtt/nvtt.h>
 #include <squish.h>
+#endif
 
 #include "core/loops.hpp"
 #include "cotan/image.hpp"
 #include "image/astc.hpp"
 #include "image/dds.hpp"
+#include "image/etc.hpp"
+#include "image/uastc.hpp"
 #include "maps/blocks/block.hpp"
 
 namespace {
@@ -73,6 +78,7 @@ Figures errorOf(const std::vector<glm::dvec3>& normals, int width, int height, c
     return f;
 }
 
+#ifdef COTAN_OTHER_ENCODERS
 struct ByteCollector : nvtt::OutputHandler {
     Bytes bytes;
     void beginImage(int, int, int, int, int, int) override {}
@@ -114,13 +120,21 @@ Bytes bySquish(const std::vector<std::uint8_t>& rgba, int width, int height)
     squish::CompressImage(rgba.data(), width, height, bytes.data(), squish::kBc5);
     return bytes;
 }
+#endif
 
-Figures errorOfThree(const std::vector<glm::dvec3>& normals, const Image& image)
+// image: three channels of 8 bits, or two of 16.
+Figures errorOfImage(const std::vector<glm::dvec3>& normals, const Image& image)
 {
     Figures f;
     for (std::size_t i = 0; i < std::min(normals.size(), image.pixelCount()); ++i) {
-        const std::uint8_t* const texel = image.bytes8() + 4 * i;
-        const glm::dvec3 n = glm::normalize((glm::dvec3(texel[0], texel[1], texel[2]) - 128.0) / 127.0);
+        glm::dvec3 n(0, 0, 1);
+        for (int c = 0; c < 3; ++c)
+            n[c] = image.type == cotan::PixelType::unorm16
+                ? (image.words()[4 * i + std::size_t(c)] / 65535.0 * 255 - 128) / 127
+                : (image.bytes8()[4 * i + std::size_t(c)] - 128.0) / 127;
+        if (image.type == cotan::PixelType::unorm16)
+            n.z = std::sqrt(std::max(0.0, 1 - n.x * n.x - n.y * n.y));
+        n = glm::normalize(n);
         const double degrees =
             glm::degrees(std::atan2(glm::length(glm::cross(n, normals[i])), glm::dot(n, normals[i])));
         f.mean += degrees / double(normals.size());
@@ -145,16 +159,26 @@ Image decodedAstc(int width, int height, const Bytes& blocks)
 
 Bytes byCotan(const Image& map)
 {
-    Bytes blocks;
-    cotan::withThreads(1, [&] { blocks = cotan::maps::encodeBc5(map, {}); });
-    return blocks;
+    return cotan::withThreads(1, [&] { return cotan::maps::encodeBc5(map, {}); });
+}
+
+Image decodedEac(int width, int height, const Bytes& blocks)
+{
+    Image image = cotan::makeImage(width, height, cotan::PixelType::unorm16, "eac");
+    cotan::decodeEtc(cotan::EtcCode::rg11, blocks, image);
+    return image;
+}
+
+Image decodedUastc(int width, int height, const Bytes& blocks)
+{
+    Image image = cotan::makeImage(width, height, cotan::PixelType::unorm8, "uastc");
+    return cotan::decodeUastc(blocks, image) ? image : Image{};
 }
 
 } // namespace
 
 int main(int count, char** files)
 {
-    const char* const names[] = {"cotan", "cotan, 8 bits", "nvtt fastest", "nvtt normal", "nvtt production", "squish"};
     for (int f = 1; f < count; ++f) {
         const auto map = cotan::readImage(files[f]);
         if (!map) {
@@ -181,53 +205,70 @@ int main(int count, char** files)
                 codes.floats()[4 * i + std::size_t(c)] = float((double(rgba.back()) - 128) / 127 + 1) / 2;
             }
         }
-        const std::function<Bytes()> encoders[] = {
-            [&] { return byCotan(target); },
-            [&] { return byCotan(codes); },
-            [&] { return byNvtt(rgba, width, height, nvtt::Quality_Fastest); },
-            [&] { return byNvtt(rgba, width, height, nvtt::Quality_Normal); },
-            [&] { return byNvtt(rgba, width, height, nvtt::Quality_Production); },
-            [&] { return bySquish(rgba, width, height); },
+        const std::pair<const char*, std::function<Bytes()>> encoders[] = {
+            {"cotan", [&] { return byCotan(target); }},
+            {"cotan, 8 bits", [&] { return byCotan(codes); }},
+#ifdef COTAN_OTHER_ENCODERS
+            {"nvtt fastest", [&] { return byNvtt(rgba, width, height, nvtt::Quality_Fastest); }},
+            {"nvtt normal", [&] { return byNvtt(rgba, width, height, nvtt::Quality_Normal); }},
+            {"nvtt production", [&] { return byNvtt(rgba, width, height, nvtt::Quality_Production); }},
+            {"squish", [&] { return bySquish(rgba, width, height); }},
+#endif
         };
         const auto print = [&](const char* by, const Figures& error, double seconds) {
             fmt::print("{}\t{} x {}\t{}\t{:.4f}\t{:.2f}\t{:.3f}\n", files[f], width, height, by, error.mean,
                        error.maximum, seconds);
         };
-        for (int e = 0; e < 6; ++e) {
-            const std::clock_t start = std::clock(); // of all threads
-            const Bytes blocks = encoders[e]();
-            const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
-            print(names[e], errorOf(normals, width, height, blocks), seconds);
+        // Encodes, and returns the processor time of all threads.
+        const auto timed = [](const auto& encode, auto& made) {
+            const std::clock_t start = std::clock();
+            made = encode();
+            return double(std::clock() - start) / CLOCKS_PER_SEC;
+        };
+        Bytes blocks;
+        for (const auto& [by, encode] : encoders) {
+            const double seconds = timed(encode, blocks);
+            print(by, errorOf(normals, width, height, blocks), seconds);
         }
+#ifdef COTAN_OTHER_ENCODERS
         const auto squish = [&](int format) {
             Bytes bytes(std::size_t(squish::GetStorageRequirements(width, height, format)));
             squish::CompressImage(rgba.data(), width, height, bytes.data(),
                                   format | squish::kColourIterativeClusterFit);
             return bytes;
         };
-        const auto bc7 = [&] {
-            Bytes blocks;
-            cotan::withThreads(1, [&] { blocks = cotan::maps::encodeBc7(target, {}); });
-            return blocks;
-        };
+#endif
         const std::tuple<const char*, cotan::DdsCode, std::function<Bytes()>> wide[] = {
-            {"cotan, BC7", {"DX10", 98, 16}, bc7},
+            {"cotan, BC7",
+             {"DX10", 98, 16},
+             [&] { return cotan::withThreads(1, [&] { return cotan::maps::encodeBc7(target, {}); }); }},
+#ifdef COTAN_OTHER_ENCODERS
             {"squish, BC1", {"DXT1", 0, 8}, [&] { return squish(squish::kDxt1); }},
-            {"squish, BC3", {"DXT5", 0, 16}, [&] { return squish(squish::kDxt5); }}};
+            {"squish, BC3", {"DXT5", 0, 16}, [&] { return squish(squish::kDxt5); }}
+#endif
+        };
         for (const auto& [by, code, encode] : wide) {
-            const std::clock_t start = std::clock();
-            const Bytes blocks = encode();
-            const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
-            print(by, errorOfThree(normals, decodedDds(code, width, height, blocks)), seconds);
+            const double seconds = timed(encode, blocks);
+            print(by, errorOfImage(normals, decodedDds(code, width, height, blocks)), seconds);
         }
+        const cotan::maps::CodeScale eleven{128 * 2047 / 255.0f, 127 * 2047 / 255.0f};
+        double seconds = timed(
+            [&] { return cotan::withThreads(1, [&] { return cotan::maps::encodeEacRg11(target, eleven); }); }, blocks);
+        print("cotan, EAC RG11", errorOfImage(normals, decodedEac(width, height, blocks)), seconds);
+        seconds =
+            timed([&] { return cotan::withThreads(1, [&] { return cotan::maps::encodeUastc(target, {}); }); }, blocks);
+        print("cotan, UASTC", errorOfImage(normals, decodedUastc(width, height, blocks)), seconds);
         Image scaled = target; // ASTC takes codes, 0 to 1
         for (std::size_t i = 0; i < 4 * map->pixelCount(); ++i)
             if (i % 4 != 3)
                 scaled.floats()[i] = (128 + 127 * (2 * scaled.floats()[i] - 1)) / 255;
-        const std::clock_t start = std::clock();
-        const Bytes astc = cotan::withThreads(1, [&] { return *cotan::encodeAstc(4, 4, scaled, false); });
-        const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
-        print("astcenc, ASTC 4x4", errorOfThree(normals, decodedAstc(width, height, astc)), seconds);
+        seconds = timed(
+            [&] {
+                return cotan::withThreads(1,
+                                          [&] { return *cotan::encodeAstc(4, 4, scaled, cotan::AstcChannels::all); });
+            },
+            blocks);
+        print("astcenc, ASTC 4x4", errorOfImage(normals, decodedAstc(width, height, blocks)), seconds);
     }
     return 0;
 }

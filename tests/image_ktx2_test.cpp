@@ -2,10 +2,12 @@
 #include "cotan/image.hpp"
 
 #include <algorithm>
+#include <random>
 
 #include <gtest/gtest.h>
 
 #include "deflate.hpp"
+#include "image/dds.hpp"
 #include "ktx2_bytes.hpp"
 #include "ktx2_maker.hpp"
 
@@ -148,6 +150,37 @@ TEST(Ktx2, blocksAreDecoded)
         ktx2Image(makeKtx2({.format = 145, .width = 4, .height = 4, .levels = {{"\x20"s + std::string(15, '\0')}}}));
     ASSERT_TRUE(bc7) << bc7.error().message;
     EXPECT_EQ(texel(*bc7, 0), (std::vector<double>{0, 0, 0, 0}));
+}
+
+// Random blocks, of BC7 in each of its modes.
+TEST(Ktx2, blocksOfBcAreReadAsByOpenImageIO)
+{
+    struct Format {
+        std::uint32_t vulkan;
+        DdsCode dds;
+    };
+    std::mt19937 random(7);
+    for (const Format& format :
+         {Format{133, {"DXT1", 0, 8}}, Format{135, {"DXT3", 0, 16}}, Format{137, {"DXT5", 0, 16}},
+          Format{139, {"DX10", 80, 8}}, Format{141, {"DX10", 83, 16}}, Format{145, {"DX10", 98, 16}}}) {
+        constexpr int kWidth = 254, kHeight = 129; // not whole blocks
+        std::string blocks(std::size_t(64 * 33) * format.dds.block, '\0');
+        for (char& byte : blocks)
+            byte = char(random() & 0xff);
+        for (std::size_t k = 0; format.vulkan == 145 && k < blocks.size() / 16; ++k) // the lowest bit that is set
+            blocks[16 * k] = char((int(blocks[16 * k]) << 1 | 1) << k % 8);
+        const auto head = ddsHeader(format.dds, kWidth, kHeight, 1);
+        const std::string dds = std::string(reinterpret_cast<const char*>(head.data()), head.size()) + blocks;
+        const auto wanted = decodeImage(std::as_bytes(std::span(dds)), "a.dds");
+        if (!wanted && wanted.error().kind == ErrorKind::unavailable)
+            GTEST_SKIP() << wanted.error().message;
+        ASSERT_TRUE(wanted) << wanted.error().message;
+        const auto found =
+            ktx2Image(makeKtx2({.format = format.vulkan, .width = kWidth, .height = kHeight, .levels = {{blocks}}}));
+        ASSERT_TRUE(found) << found.error().message;
+        EXPECT_EQ(found->type, wanted->type);
+        EXPECT_TRUE(found->data == wanted->data) << format.vulkan;
+    }
 }
 
 // image_basis_test.cpp has the formats of Basis Universal that are read.

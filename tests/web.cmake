@@ -59,8 +59,8 @@ cotan_web_test(three_relief ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${module
 # The lines of docs/how-to/three-normal-maps.md in stock three.js, compared with an analytic relief.
 cotan_web_test(three_symptoms ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} FIXTURES npm)
 
-# The blocks of GPU textures that the tool writes, in stock three.js.
-cotan_web_test(three_blocks ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
+# The blocks of GPU textures that the tool writes, in stock three.js and Babylon.js.
+cotan_web_test(blocks ARGUMENTS ${PROJECT_SOURCE_DIR} ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 cotan_web_test(basisu_models ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 
 # The pages of examples/ as they are shipped.

@@ -1,17 +1,14 @@
 #include "commands.hpp"
 
-#include <cstring>
+#include <optional>
 
 #include <fmt/format.h>
 
-#include "bake/convert/map_jobs.hpp"
 #include "bake/reports.hpp"
 #include "core/try.hpp"
-#include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/render.hpp"
-#include "files/bytes.hpp"
 #include "gltf_open.hpp"
 #include "lint_lines.hpp"
 #include "loading.hpp"
@@ -62,12 +59,6 @@ Result<LintJob> jobOf(const LintCommandOptions& o)
 
 // ---- the work -------------------------------------------------------------------------------
 
-// What the blocks of a map's file have cost it, if it has blocks.
-struct LostBefore {
-    std::string compress; // the word of --compress; empty: no blocks, or none that have a word
-    std::optional<double> degrees;
-};
-
 struct LintResult {
     Scene scene; // with the given maps
     LintReport report;
@@ -75,8 +66,8 @@ struct LintResult {
     std::vector<ProblemArea> areas;
     std::string command;                          // that follows the advice; empty if it would change nothing
     std::vector<std::vector<TriedFormat>> blocks; // with details: what formats would cost each of report.maps
-    std::vector<LostBefore> lost;                 // with details: each of report.maps
-    double loadSeconds = 0, seconds = 0;          // seconds: of the measurements
+    std::vector<std::optional<double>> lost; // with details: degrees that blocks in its file have cost each of them
+    double loadSeconds = 0, seconds = 0;     // seconds: of the measurements
 };
 
 std::string commandFor(const LintJob& job, const LintReport& report)
@@ -93,54 +84,11 @@ std::string commandFor(const LintJob& job, const LintReport& report)
                        quoted(stem + "-verify"));
 }
 
-// The files of the normal maps: that of --normal-map, or those of a glTF.
-std::vector<std::vector<std::byte>> mapFiles(const LintJob& job)
+// The image of a map. Null without pixels.
+const Image* imageOf(const GreenEvidence& map, const Scene& scene)
 {
-    std::vector<std::vector<std::byte>> files;
-    const auto add = [&](auto bytes) {
-        if (bytes)
-            files.push_back(*std::move(bytes));
-    };
-    if (!job.maps.normal.empty()) {
-        add(readFileBytes(job.maps.normal, job.load.fileBytes));
-        return files;
-    }
-    auto document = namedAsGltf(job.model) ? openGltfDocument(job.model, job.load) : inputError("no glTF");
-    if (!document)
-        return files;
-    std::vector<std::string> told;
-    if (const auto jobs = mapJobs(*document, told, job.load))
-        for (const auto& map : *jobs)
-            add(gltfImageBytes(*document, map.image, job.load));
-    return files;
-}
-
-// Whether a scene's image is that of a file: of two channels, the scene has completed the others.
-bool showsImage(const Image& seen, const Image& image)
-{
-    if (seen.width != image.width || seen.type != image.type || seen.data.size() != image.data.size())
-        return false;
-    const std::size_t all = image.bytesPerPixel(), compared = image.channels == 2 ? all / 2 : all;
-    for (std::size_t i = 0; i < image.data.size(); i += all)
-        if (std::memcmp(&seen.data[i], &image.data[i], compared) != 0)
-            return false;
-    return true;
-}
-
-// A scene does not know the files of its images.
-std::vector<LostBefore> lostBefore(const LintJob& job, const LintResult& done)
-{
-    std::vector<LostBefore> lost(done.report.maps.size());
-    for (const std::vector<std::byte>& file : mapFiles(job)) {
-        const std::string compress = maps::compressionOf(file);
-        const auto image = compress.empty() ? inputError("no blocks") : decodeImage(file, "the map", job.load);
-        for (std::size_t i = 0; image && i < lost.size(); ++i) {
-            const int seen = done.report.maps[i].image;
-            if (seen >= 0 && showsImage(done.scene.images[std::size_t(seen)], *image))
-                lost[i] = {compress, costBefore(*image, {.expansion = Expansion::biased}, compress)};
-        }
-    }
-    return lost;
+    const Image* const image = map.image >= 0 ? &scene.images[std::size_t(map.image)] : nullptr;
+    return image && !image->data.empty() ? image : nullptr;
 }
 
 Result<LintResult> lint(const LintJob& job, const CommonOptions& terminal)
@@ -162,13 +110,11 @@ Result<LintResult> lint(const LintJob& job, const CommonOptions& terminal)
         done.areas = problemAreas(done.scene);
     // Maps without pixels cost nothing: their list is empty.
     for (const GreenEvidence& map : done.report.maps) {
-        const bool seen = job.details && map.image >= 0 && !done.scene.images[std::size_t(map.image)].data.empty();
-        done.blocks.push_back(seen
-                                  ? costsOf(done.scene.images[std::size_t(map.image)], {.expansion = Expansion::biased})
-                                  : std::vector<TriedFormat>());
+        const Image* const image = job.details ? imageOf(map, done.scene) : nullptr;
+        constexpr Convention kRead{.expansion = Expansion::biased};
+        done.blocks.push_back(image ? costsOf(*image, kRead) : std::vector<TriedFormat>());
+        done.lost.push_back(image ? costBefore(*image, kRead) : std::nullopt);
     }
-    if (job.details)
-        done.lost = lostBefore(job, done);
     done.seconds = watch.lap();
     return done;
 }
@@ -197,10 +143,11 @@ std::vector<std::string> linesOf(const LintJob& job, const LintResult& done)
         details.push_back(std::move(line));
     }
     for (std::size_t i = 0; i < done.lost.size(); ++i)
-        if (const LostBefore& lost = done.lost[i]; lost.degrees)
+        if (done.lost[i])
             details.push_back(fmt::format("{}: its blocks ({}) have already cost about {:.2f} degrees on average, "
                                           "estimated from what they hold",
-                                          nameOf(done.report.maps[i]), lost.compress, *lost.degrees));
+                                          nameOf(done.report.maps[i]), imageOf(done.report.maps[i], done.scene)->blocks,
+                                          *done.lost[i]));
     const std::vector<std::string> checks = job.limits.any()
         ? checkLines(done.check, job.details ? done.check.failures.size() : 1)
         : std::vector<std::string>();
@@ -243,10 +190,10 @@ Json toJson(const LintJob& job, const LintResult& done)
     j["as_blocks"] = blocks;
     Json lost = Json::array();
     for (std::size_t i = 0; i < done.lost.size(); ++i)
-        if (done.lost[i].degrees)
+        if (done.lost[i])
             lost.push_back({{"map", done.report.maps[i].name},
-                            {"compress", done.lost[i].compress},
-                            {"mean_degrees", *done.lost[i].degrees}});
+                            {"compress", imageOf(done.report.maps[i], done.scene)->blocks},
+                            {"mean_degrees", *done.lost[i]}});
     j["lost_before"] = lost;
     j["check"] = toJson(done.check);
     j["over_limit"] = overLimits(done.check);

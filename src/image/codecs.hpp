@@ -78,10 +78,14 @@ std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image& image, 
 // for all other files.
 std::string foreignKtx2(std::span<const std::byte> bytes);
 
-// Names what this build lacks the library for: "Zstandard", "zlib", "BC blocks". Empty for all other files.
+// Names what this build lacks the library for: "Zstandard", "zlib", "BC6H". Empty for all other files.
 std::string lackedByKtx2(std::span<const std::byte> bytes);
 
-// As decodeImage: the largest level. Blocks (BC1 to BC5, BC7) are passed to readOther as a DDS file.
+// The word of --compress for the blocks of a DDS or KTX2 file, of which only the header is read. Empty: another file,
+// pixels, or blocks that no word names, such as BC1 and ETC.
+std::string blockName(std::span<const std::byte> file);
+
+// As decodeImage: the largest level. BC6H is passed to readOther as a DDS file.
 Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
 // Decompresses `packed` to exactly out.size() bytes. Errors: ErrorKind::input for damaged data or another size,

@@ -39,6 +39,7 @@ Image toUnorm8(const Image& image)
     Image out = makeImage(image.width, image.height, PixelType::unorm8, image.name);
     out.frame = image.frame;
     out.channels = image.channels;
+    out.blocks = image.blocks;
     const std::size_t count = image.pixelCount() * 4;
     if (image.type == PixelType::float32) {
         for (std::size_t i = 0; i < count; ++i)

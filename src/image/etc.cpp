@@ -8,13 +8,12 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "image/block_rows.hpp"
 #include "image/component_types.hpp"
 
 namespace cotan {
 
 namespace {
-
-using Texels = std::array<glm::ivec4, 16>; // by rows; 8 bits, or 16 of EAC
 
 // The bits of a block, whose first byte is the highest.
 std::uint64_t bitsOf(const std::byte* block)
@@ -48,7 +47,7 @@ constexpr std::array<int, 8> kDistances{3, 6, 11, 16, 23, 32, 41, 64};
 constexpr glm::ivec4 kTransparent{0, 0, 0, 0};
 
 // Two halves, each of one colour that every texel makes lighter or darker.
-void decodeHalves(std::uint64_t bits, const std::array<glm::ivec3, 2>& colors, bool opaque, Texels& texels)
+void decodeHalves(std::uint64_t bits, const std::array<glm::ivec3, 2>& colors, bool opaque, BlockTexels& texels)
 {
     const std::array<int, 2> tables{field(bits, 37, 3), field(bits, 34, 3)};
     const bool flipped = field(bits, 32, 1) != 0;
@@ -61,7 +60,7 @@ void decodeHalves(std::uint64_t bits, const std::array<glm::ivec3, 2>& colors, b
     }
 }
 
-void decodePaints(std::uint64_t bits, const std::array<glm::ivec3, 4>& paints, bool opaque, Texels& texels)
+void decodePaints(std::uint64_t bits, const std::array<glm::ivec3, 4>& paints, bool opaque, BlockTexels& texels)
 {
     for (int i = 0; i < 16; ++i) {
         const int index = indexOf(bits, i);
@@ -72,7 +71,7 @@ void decodePaints(std::uint64_t bits, const std::array<glm::ivec3, 4>& paints, b
 glm::ivec3 rgb4(int red, int green, int blue) { return {from4(red), from4(green), from4(blue)}; }
 
 // Modes "T" and "H" of ETC2: four colours from two.
-void decodeT(std::uint64_t bits, bool opaque, Texels& texels)
+void decodeT(std::uint64_t bits, bool opaque, BlockTexels& texels)
 {
     const glm::ivec3 one = rgb4(field(bits, 59, 2) << 2 | field(bits, 56, 2), field(bits, 52, 4), field(bits, 48, 4));
     const glm::ivec3 other = rgb4(field(bits, 44, 4), field(bits, 40, 4), field(bits, 36, 4));
@@ -80,7 +79,7 @@ void decodeT(std::uint64_t bits, bool opaque, Texels& texels)
     decodePaints(bits, {one, other + distance, other, other - distance}, opaque, texels);
 }
 
-void decodeH(std::uint64_t bits, bool opaque, Texels& texels)
+void decodeH(std::uint64_t bits, bool opaque, BlockTexels& texels)
 {
     const std::array<int, 3> one{field(bits, 59, 4), field(bits, 56, 3) << 1 | field(bits, 52, 1),
                                  field(bits, 51, 1) << 3 | field(bits, 47, 3)};
@@ -92,7 +91,7 @@ void decodeH(std::uint64_t bits, bool opaque, Texels& texels)
 }
 
 // A plane through three colours: at the origin, four texels to the right, four below.
-void decodePlanar(std::uint64_t bits, Texels& texels)
+void decodePlanar(std::uint64_t bits, BlockTexels& texels)
 {
     const glm::ivec3 origin{from6(field(bits, 57, 6)), from7(field(bits, 56, 1) << 6 | field(bits, 49, 6)),
                             from6(field(bits, 48, 1) << 5 | field(bits, 43, 2) << 3 | field(bits, 39, 3))};
@@ -107,7 +106,7 @@ void decodePlanar(std::uint64_t bits, Texels& texels)
 }
 
 // punched: alpha is 0 or 1, and all colours are differences.
-void decodeColors(std::uint64_t bits, bool punched, Texels& texels)
+void decodeColors(std::uint64_t bits, bool punched, BlockTexels& texels)
 {
     const bool flag = field(bits, 33, 1) != 0, opaque = !punched || flag;
     std::array<glm::ivec3, 2> colors;
@@ -146,7 +145,7 @@ int modifierOf(std::uint64_t bits, int i)
 enum class EacKind { alpha, eleven, signedEleven };
 
 // Alpha of 8 bits, or another channel of 11 bits, which becomes one of 16.
-void decodeChannel(std::uint64_t bits, EacKind kind, int channel, Texels& texels)
+void decodeChannel(std::uint64_t bits, EacKind kind, int channel, BlockTexels& texels)
 {
     const int base = field(bits, 56, 8), factor = field(bits, 52, 4), step = factor > 0 ? 8 * factor : 1;
     for (int i = 0; i < 16; ++i) {
@@ -166,7 +165,7 @@ void decodeChannel(std::uint64_t bits, EacKind kind, int channel, Texels& texels
 
 bool isSigned(EtcCode code) { return code == EtcCode::r11Signed || code == EtcCode::rg11Signed; }
 
-void decodeBlock(EtcCode code, const std::byte* block, Texels& texels)
+void decodeBlock(EtcCode code, const std::byte* block, BlockTexels& texels)
 {
     switch (code) {
     case EtcCode::rgb: return decodeColors(bitsOf(block), false, texels);
@@ -190,24 +189,6 @@ void decodeBlock(EtcCode code, const std::byte* block, Texels& texels)
     }
 }
 
-template<class T> void decodeRows(EtcCode code, std::span<const std::byte> blocks, T* to, int width, int height)
-{
-    const std::size_t bytes = etcBytes(code);
-    const int across = (width + 3) / 4, down = (height + 3) / 4;
-    Texels texels{};
-    for (int row = 0; row < down; ++row)
-        for (int column = 0; column < across; ++column) {
-            const std::size_t block = std::size_t(row) * std::size_t(across) + std::size_t(column);
-            decodeBlock(code, blocks.data() + block * bytes, texels);
-            for (int y = 0; y < std::min(4, height - 4 * row); ++y)
-                for (int x = 0; x < std::min(4, width - 4 * column); ++x) {
-                    const std::size_t at = std::size_t(4 * row + y) * std::size_t(width) + std::size_t(4 * column + x);
-                    for (int c = 0; c < 4; ++c)
-                        to[4 * at + std::size_t(c)] = T(texels[std::size_t(4 * y + x)][c]);
-                }
-        }
-}
-
 } // namespace
 
 std::size_t etcBytes(EtcCode code)
@@ -217,10 +198,10 @@ std::size_t etcBytes(EtcCode code)
 
 void decodeEtc(EtcCode code, std::span<const std::byte> blocks, Image& image)
 {
-    if (image.type == PixelType::unorm16)
-        decodeRows(code, blocks, image.words(), image.width, image.height);
-    else
-        decodeRows(code, blocks, image.bytes8(), image.width, image.height);
+    const std::size_t bytes = etcBytes(code);
+    decodeBlockRows(image, [&](std::size_t block, BlockTexels& texels) {
+        decodeBlock(code, blocks.data() + block * bytes, texels);
+    });
 }
 
 } // namespace cotan

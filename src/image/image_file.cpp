@@ -130,7 +130,10 @@ try {
         return limits.decode(bytes, name);
     LoadLimits own = limits;
     own.imageBytes = std::min(limits.imageBytes, imageBudget(limits, bytes.size()));
-    return decode(bytes, name, own);
+    Result<Image> image = decode(bytes, name, own);
+    if (image)
+        image->blocks = blockName(bytes);
+    return image;
 } catch (const std::bad_alloc&) {
     return inputError(fmt::format("{}: not enough memory for the image", name));
 }

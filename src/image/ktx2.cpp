@@ -14,6 +14,7 @@
 #include "formats.hpp"
 #include "image/astc.hpp"
 #include "image/basis.hpp"
+#include "image/bc.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
 #include "image/dds.hpp"
@@ -26,18 +27,17 @@ namespace {
 
 // Blocks of width x height pixels.
 struct BlockFormat {
-    DdsCode dds = {};           // their code in DDS, which OpenImageIO decodes
+    std::uint32_t dxgi = 0;     // BC6H, which OpenImageIO decodes in DDS
+    std::optional<BcCode> bc;   // decodeBc
     std::optional<EtcCode> etc; // decodeEtc
-    int width = 4, height = 4;  // with neither: ASTC
-    std::uint32_t bytes() const { return dds.block != 0 ? dds.block : etc ? std::uint32_t(etcBytes(*etc)) : 16; }
+    int width = 4, height = 4;  // with none of them: ASTC
+    std::uint32_t bytes() const { return bc ? std::uint32_t(bcBytes(*bc)) : etc ? std::uint32_t(etcBytes(*etc)) : 16; }
 };
 
-constexpr BlockFormat dds(std::string_view letters, std::uint32_t code, std::uint32_t bytes)
-{
-    return {{letters, code, bytes}, std::nullopt, 4, 4};
-}
-constexpr BlockFormat etc(EtcCode code) { return {{}, code, 4, 4}; }
-constexpr BlockFormat astc(int width, int height) { return {{}, std::nullopt, width, height}; }
+constexpr BlockFormat bc6(std::uint32_t dxgi) { return {dxgi, std::nullopt, std::nullopt, 4, 4}; }
+constexpr BlockFormat bc(BcCode code) { return {0, code, std::nullopt, 4, 4}; }
+constexpr BlockFormat etc(EtcCode code) { return {0, std::nullopt, code, 4, 4}; }
+constexpr BlockFormat astc(int width, int height) { return {0, std::nullopt, std::nullopt, width, height}; }
 
 // How the pixels of a supported VkFormat are stored.
 struct Ktx2Format {
@@ -49,7 +49,7 @@ struct Ktx2Format {
     bool blueFirst = false;   // BGR order
     BlockFormat blocks = {};
 
-    bool hasBlocks() const { return bytes == 0 || blocks.etc || blocks.dds.block != 0; }
+    bool hasBlocks() const { return bytes == 0 || blocks.etc || blocks.bc; }
 };
 
 // The largest level of a file, and the keys that apply to it.
@@ -86,17 +86,17 @@ constexpr Ktx2Format kVulkanFormats[] = {{9, 15, 1, 1},
                                          {103, 103, 2, 4, true},
                                          {106, 106, 3, 4, true},
                                          {109, 109, 4, 4, true},
-                                         {131, 132, 4, 0, false, false, dds("DXT1", 0, 8)},
-                                         {133, 134, 4, 0, false, false, dds("DXT1", 0, 8)},
-                                         {135, 136, 4, 0, false, false, dds("DXT3", 0, 16)},
-                                         {137, 138, 4, 0, false, false, dds("DXT5", 0, 16)},
-                                         {139, 139, 1, 0, false, false, dds("DX10", 80, 8)},
-                                         {140, 140, 1, 2, false, false, dds("DX10", 81, 8)},
-                                         {141, 141, 2, 0, false, false, dds("DX10", 83, 16)},
-                                         {142, 142, 2, 2, false, false, dds("DX10", 84, 16)},
-                                         {143, 143, 3, 0, true, false, dds("DX10", 95, 16)},
-                                         {144, 144, 3, 0, true, false, dds("DX10", 96, 16)},
-                                         {145, 146, 4, 0, false, false, dds("DX10", 98, 16)},
+                                         {131, 132, 4, 0, false, false, bc(BcCode::bc1)},
+                                         {133, 134, 4, 0, false, false, bc(BcCode::bc1)},
+                                         {135, 136, 4, 0, false, false, bc(BcCode::bc2)},
+                                         {137, 138, 4, 0, false, false, bc(BcCode::bc3)},
+                                         {139, 139, 1, 0, false, false, bc(BcCode::bc4)},
+                                         {140, 140, 1, 2, false, false, bc(BcCode::bc4Signed)},
+                                         {141, 141, 2, 0, false, false, bc(BcCode::bc5)},
+                                         {142, 142, 2, 2, false, false, bc(BcCode::bc5Signed)},
+                                         {143, 143, 3, 0, true, false, bc6(95)},
+                                         {144, 144, 3, 0, true, false, bc6(96)},
+                                         {145, 146, 4, 0, false, false, bc(BcCode::bc7)},
                                          {147, 148, 3, 0, false, false, etc(EtcCode::rgb)},
                                          {149, 150, 4, 0, false, false, etc(EtcCode::rgbPunchedAlpha)},
                                          {151, 152, 4, 0, false, false, etc(EtcCode::rgba)},
@@ -234,7 +234,7 @@ Result<Ktx2Image> checkKtx2(std::span<const std::byte> bytes)
 // A DDS file with one level.
 std::vector<std::byte> asDds(const Ktx2Image& picture, std::span<const std::byte> blocks)
 {
-    std::vector<std::byte> dds = ddsHeader(picture.format.blocks.dds, picture.width, picture.height, 1);
+    std::vector<std::byte> dds = ddsHeader({"DX10", picture.format.blocks.dxgi, 16}, picture.width, picture.height, 1);
     dds.insert(dds.end(), blocks.begin(), blocks.end());
     return dds;
 }
@@ -291,9 +291,13 @@ Result<Image> decodedBlocks(const Ktx2Image& picture, PixelType type, std::span<
                             const std::string& name, const LoadLimits& limits)
 {
     const BlockFormat& format = picture.format.blocks;
-    if (format.dds.block != 0)
+    if (format.dxgi != 0)
         return readOther(asDds(picture, blocks), name, limits);
     Image image = makeImage(picture.width, picture.height, type, name);
+    if (format.bc) {
+        decodeBc(*format.bc, blocks, image);
+        return image;
+    }
     if (format.etc) {
         decodeEtc(*format.etc, blocks, image);
         return image;
@@ -354,7 +358,7 @@ std::string lackedByKtx2(std::span<const std::byte> bytes)
     if ((packing == 2 && !unpacksZstd()) || (packing == 3 && !unpacksZlib()))
         return packing == 2 ? "Zstandard" : "zlib";
     const auto format = formatOf(file.at(12, 4), {});
-    return format && format->blocks.dds.block != 0 && !readsOtherFormats() ? "BC blocks" : "";
+    return format && format->blocks.dxgi != 0 && !readsOtherFormats() ? "BC6H" : "";
 }
 
 Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)

@@ -5,6 +5,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
+import { texelsOf, transcoder } from './basis_transcoder.mjs';
 import { data, hasZstandard, missing } from './data.mjs';
 import { filesUnder, hills, imageOf, installed, load, parseGlb, runCases, skip } from './shared.mjs';
 
@@ -45,10 +46,10 @@ async function sharpOrSkip() {
   }
 }
 
-/** The GLB with its WebP image also as the source of the texture, and without a reader that must support WebP. */
-function withFallback(glb) {
+/** The GLB with its image also as the source of the texture, and without a reader that must support the extension. */
+function withFallback(glb, extension = 'EXT_texture_webp') {
   const { json, bin } = parseGlb(glb), [texture] = json.textures;
-  texture.source = texture.extensions.EXT_texture_webp.source;
+  texture.source = texture.extensions[extension].source;
   delete json.extensionsRequired;
   const text = Buffer.from(JSON.stringify(json)), padded = Buffer.concat([text, Buffer.alloc(-text.length & 3, ' ')]), head = Buffer.alloc(20), chunk = Buffer.alloc(8);
   [0x46546c67, 2, 28 + padded.length + bin.length, padded.length, 0x4e4f534a].forEach((word, k) => head.writeUInt32LE(word, 4 * k));
@@ -428,6 +429,46 @@ const cases = {
         assert.deepEqual([...texture.getImage()], [...file], how);
       }
     }
+  },
+
+  async ktx2MapsStayKtx2() {
+    const { KHRTextureBasisu } = await from('@gltf-transform/extensions'), { default: validator } = await from('gltf-validator'), { ready, texture: made } = await load(folder, 'textures');
+    await ready;
+    const io = new NodeIO().registerExtensions([KHRTextureBasisu]), judge = await transcoder(modules), relief = domes(64, true);
+    const { document, texture } = await hillsDocument(), plain = await hillsDocument();
+    texture.setImage(made(relief, { from: 'gltf,biased', compress: 'uastc' }).bytes).setMimeType('image/ktx2');
+    plain.texture.setImage(await cotan.encodePng({ ...texelsOf(judge, texture.getImage()), bits: 8 }));
+    for (const one of [document, plain.document]) await one.transform(transforms.tangents());
+    document.createExtension(KHRTextureBasisu).setRequired(true);
+    const model = await io.writeBinary(document), expected = await cotan.decodePng(imageOf(parseGlb((await cotan.convert(await io.writeBinary(plain.document), { mode: 'convert' })).glb), 0));
+    const { glb, report } = await cotan.convert(model, { mode: 'convert', texture: made }), parsed = parseGlb(glb), [map] = report.maps, file = imageOf(parsed, 0);
+    assert.deepEqual(parsed.json.textures.map(({ source, extensions }) => [source, extensions.KHR_texture_basisu.source]), [[undefined, 0]]);
+    assert.deepEqual([parsed.json.images[0].mimeType, parsed.json.extensionsRequired, map.format], ['image/ktx2', ['KHR_texture_basisu'], 'KTX2 with uastc']);
+    assert.deepEqual((await validator.validateBytes(glb)).issues.messages.filter(({ severity }) => severity === 0), []);
+    const degrees = degreesBetween({ ...texelsOf(judge, file), bits: 8 }, expected);
+    console.log(`uastc: ${map.degrees_of_encoding.toFixed(3)} degrees said, ${degrees.toFixed(3)} found by another decoder`);
+    assert.ok(Math.abs(degrees - map.degrees_of_encoding) < 0.02 && degrees < 0.5 && degrees > 0.001);
+    assert.ok(report.notes.some((line) => /bumps: stays KTX2 with uastc, which has an error of 0\.\d\d degrees/.test(line)), report.notes.join());
+    assert.equal(new DataView(file.buffer, file.byteOffset).getUint32(40, true), 7, 'all levels, as before');
+    // The transform makes the same file. Without the encoder, or where readers may lack KTX2, the map becomes PNG and a note says why.
+    let said;
+    await document.transform(transforms.untangent({ mode: 'convert', report: (found) => { said = found; } }));
+    assert.deepEqual([texture.getMimeType(), said.maps[0].format, said.notes], ['image/ktx2', 'KTX2 with uastc', report.notes]);
+    assert.ok(Buffer.from(texture.getImage()).equals(file));
+    for (const [given, options, why] of [[model, {}, /KTX2 is written by options\.texture/], [withFallback(model, 'KHR_texture_basisu'), { texture: made }, /does not require its readers to support KTX2/]]) {
+      const { report: { maps: [other], notes } } = await cotan.convert(given, { mode: 'convert', ...options });
+      assert.deepEqual([other.format, notes.filter((line) => why.test(line)).length], ['PNG', 1], notes.join());
+    }
+    // Green alone.
+    const { document: reversed, texture: down } = await hillsDocument();
+    down.setImage(made(domes(64, false), { from: 'gltf,biased', compress: 'uastc' }).bytes).setMimeType('image/ktx2');
+    reversed.createExtension(KHRTextureBasisu).setRequired(true);
+    const fixed = await cotan.convert(await io.writeBinary(reversed), { fixGreen: true, texture: made });
+    assert.deepEqual(fixed.report.green_fixed, ['bumps']);
+    const was = degreesBetween({ ...texelsOf(judge, made(relief, { from: 'gltf,biased', compress: 'uastc' }).bytes), bits: 8 }, relief);
+    const is = degreesBetween({ ...texelsOf(judge, imageOf(parseGlb(fixed.glb), 0)), bits: 8 }, relief);
+    console.log(`green reversed: ${is.toFixed(3)} degrees from the relief, ${was.toFixed(3)} encoded once`);
+    assert.ok(is < 1.5 * was, 'nearly as exact as blocks of the right map');
   },
 
   // Chroma at half the resolution cost 3.6 degrees, which no report said.

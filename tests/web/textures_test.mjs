@@ -31,7 +31,8 @@ async function sameAsTheTool(folder, formats) {
     const made = texture(map, { from: 'gltf,exact', to, compress, swizzle, container, mips }), report = JSON.parse(fs.readFileSync(path.join(place, 'a.json')));
     assert.ok(Buffer.from(made.bytes).equals(fs.readFileSync(file)), `${compress} ${container}`);
     assert.equal(made.levels, mips ? 6 : 1);
-    if (/^(bc|none)/.test(compress)) continue;
+    if (container === 'dds') assert.equal(made.degrees, null, 'DDS is not read here');
+    if (compress === 'none' || container === 'dds') continue;
     assert.ok(Math.abs(made.degrees.mean - report.mean_degrees) < 0.01 && made.degrees.percentile99 > made.degrees.mean, `${compress}: ${JSON.stringify(made.degrees)}`);
   }
 }

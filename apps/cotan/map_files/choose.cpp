@@ -126,10 +126,10 @@ std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention)
     return costs;
 }
 
-std::optional<double> costBefore(const Image& map, const Convention& convention, const std::string& compress)
+std::optional<double> costBefore(const Image& map, const Convention& convention)
 {
     constexpr int kLeast = 32, kSquare = 24;
-    const auto code = codeNamed(compress);
+    const auto code = codeNamed(map.blocks);
     if (!code || *code == TexelCode::rgba8 || *code == TexelCode::bc3 || map.width < kLeast || map.height < kLeast)
         return std::nullopt;
     const int both = std::lcm(code->width, code->height);
@@ -139,7 +139,7 @@ std::optional<double> costBefore(const Image& map, const Convention& convention,
         read.channels = Channels::orthographic;
         unswizzle(sample, swizzleOf(sample));
     }
-    const auto cost = costOfFormat(sample, read, compress);
+    const auto cost = costOfFormat(sample, read, map.blocks);
     return cost ? std::optional(cost->meanDegrees) : std::nullopt;
 }
 

@@ -8,7 +8,7 @@
 #include "core/try.hpp"
 #include "files/output.hpp"
 #include "image/format_table.hpp"
-#include "maps/textures/texel_code.hpp"
+#include "maps/textures/make_texture.hpp"
 #include "stream.hpp"
 
 namespace cotan::app {
@@ -64,14 +64,11 @@ Result<Image> convertWhole(const std::filesystem::path& file, const RecodeSettin
 Status writeTexture(const std::filesystem::path& out, const Image& map, const Convention& stored, const TexelCode& code,
                     const ConvertFileOptions& o, TextureLevel first, ConvertedFile& done)
 {
-    std::vector<TextureLevel> levels{std::move(first)};
-    if (o.mips)
-        COTAN_CHECK(addMips(map, stored, code, o.to, levels));
-    const std::string bytes = textureBytes(out, code, levels, map.frame);
-    if (code != TexelCode::rgba8)
-        if (const auto cost = costOf(map, stored, std::as_bytes(std::span(bytes)), done.to))
-            done.cost = *cost;
-    return writeFileWhole(out, bytes);
+    COTAN_TRY(made,
+              finishTexture(map, stored, code, std::move(first), code == TexelCode::rgba8 ? nullptr : &map,
+                            {.from = stored, .to = o.to, .file = out, .mips = o.mips}));
+    done.cost = made->cost;
+    return writeFileWhole(out, {reinterpret_cast<const char*>(made->bytes.data()), made->bytes.size()});
 }
 
 // Writes the texture that fits the budget. map: as chooseFormat takes it.

@@ -9,10 +9,10 @@ export function tangents(options?: { kind?: 'mikktspace' | 'area-weighted' | 've
 /** Drops TANGENT where nobody can see it. `mode` is as in `convert` of the package cotan. By default each primitive gets
  * the frame that is near enough to its tangents, which its extras name (`cotanFrame`), and maps stay byte for byte, but
  * for green where the tangents reverse it. Tangents stay, with a note, where no frame is near enough, where a map cannot
- * be decoded, such as KTX2 (listed in the report as unread_maps), and where glTF requires them. Geometry stays
+ * be decoded, such as ASTC (listed in the report as unread_maps), and where glTF requires them. Geometry stays
  * compressed as it was.
- * With mode `convert`, new maps keep the format of the old ones; JPEG and WebP become PNG if their encoder is missing or
- * loses too much, as with `convert`. Materials with new maps name the frame in their extras, which is also the default
+ * With mode `convert`, new maps keep the format of the old ones. KTX2 keeps its blocks too, but all of Basis Universal
+ * becomes UASTC. Maps become PNG if their encoder is missing or JPEG or WebP lose too much, as with `convert`. Materials with new maps name the frame in their extras, which is also the default
  * of `from`. Tangents are generated if the frame `to` reads them. */
 export function untangent(options?: {
   mode?: 'auto' | 'drop' | 'convert';

@@ -180,7 +180,7 @@ function replaceMap(document, map, { bytes, mimeType }) {
   const texture = elsewhere ? old.clone() : old;
   if (elsewhere) readers.forEach((read) => read(texture));
   const uri = texture.getURI();
-  const ending = { 'image/png': 'png', 'image/jpeg': 'jpg', 'image/webp': 'webp' }[mimeType];
+  const ending = { 'image/png': 'png', 'image/jpeg': 'jpg', 'image/webp': 'webp', 'image/ktx2': 'ktx2' }[mimeType];
   texture.setImage(bytes).setMimeType(mimeType).setURI(uri && `${uri.replace(/\.[^./]*$/, '')}${elsewhere ? '-normal' : ''}.${ending}`);
 }
 
@@ -216,10 +216,17 @@ function dropTangentsAs(document, { meshes }) {
   }));
 }
 
+/** texture() of cotan/textures, which is loaded when it is first needed. */
+async function textureLoaded(...args) {
+  const { ready: loaded, texture } = await import('../textures.js');
+  await loaded;
+  return texture(...args);
+}
+
 /** Converts the document, which is not changed: { report, made }. model: the document as plain glTF. made: the converted
  * model, parsed. */
 async function converted(document, { model, files }, o) {
-  const { glb, report } = await convert(model, { ...o, files }), textures = document.getRoot().listTextures();
+  const { glb, report } = await convert(model, { ...o, files, texture: textureLoaded }), textures = document.getRoot().listTextures();
   const maps = report.maps.map((map) => ({ ...map, bytes_before: imageBytes(textures[map.image]), ...(map.kept && { bytes_after: imageBytes(textures[map.image]) }) }));
   return { made: parsedModel(glb), report: { ...report, maps } };
 }

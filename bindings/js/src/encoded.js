@@ -1,7 +1,7 @@
 // Files of new maps: in the format of the old file, unless its losses would show.
 import { usage } from './errors.js';
 import { bytesOf } from './image_checks.js';
-import { decodeImage, encodeLossy, lossyFormat } from './image_files.js';
+import { decodeImage, encodeLossy, isKtx2, ktx2Blocks, lossyFormat } from './image_files.js';
 import { decodePng, encodePng, isPng } from './png.js';
 
 export const kVisible = 0.5; // degrees on average over a map; the library has the same threshold
@@ -30,14 +30,29 @@ export async function encodedByCaller(image, encode) {
   return { ...made, degrees: degreesBetween(image, stored) };
 }
 
-/** The file of a map in the format of the file `old` if that is smaller than `png` and accurate enough; else png. Adds
- * `format` and `quality` in the first case, and else a `note` where the reader should know why. name: of the map. more:
- * hasWebp: whether all readers of the model support WebP; loss: degrees on average that the format
- * may lose. */
-export async function encodedLike(image, old, png, name, { hasWebp, loss = kVisible }) {
+// As encodedLike, for KTX2.
+async function inBlocks(image, old, name, { texture, loss, otherwise }) {
+  const blocks = ktx2Blocks(old), word = blocks?.compress, two = ['bc5', 'bc5-snorm', 'eac-rg11'].includes(word);
+  if (!texture) return otherwise('KTX2 is written by options.texture, the function texture of cotan/textures');
+  if (!blocks) return otherwise('there is no encoder for the blocks of its KTX2 file');
+  if (image.width % 4 || image.height % 4) return otherwise(`KTX2 in glTF needs sides that are multiples of 4, found ${image.width} x ${image.height}`);
+  const { bytes, degrees } = await texture(image, { from: 'gltf,biased', to: two ? 'gltf,biased,xy' : 'gltf,biased', compress: word, mips: blocks.levels !== 1 });
+  const note = degrees?.mean > loss ? `${name}: stays KTX2 with ${word}, which has an error of ${degrees.mean.toFixed(2)} degrees on average` : undefined;
+  return { bytes, mimeType: 'image/ktx2', degrees: degrees?.mean ?? null, format: `KTX2 with ${word}`, quality: null, note };
+}
+
+/** The file of a map in the format of the file `old`, but png if JPEG or WebP are not smaller and accurate enough; KTX2
+ * stays, since it is chosen for memory. Adds `format` and `quality` in the first case, and else a `note` where the reader should know why. name: of the map.
+ * more: required: types of images that all readers of the model support; texture: that of cotan/textures; loss: degrees on
+ * average that the format may lose. */
+export async function encodedLike(image, old, png, name, { required, texture, loss = kVisible }) {
+  if (isKtx2(old)) {
+    const otherwise = (why) => ({ ...png, note: `${name}: ${why}, so the new map is PNG: ${png.bytes.length} bytes, before ${old.length}` });
+    return required.includes('image/ktx2') ? inBlocks(image, old, name, { texture, loss, otherwise }) : otherwise('the model does not require its readers to support KTX2');
+  }
   const format = image.bits === 8 ? lossyFormat(old) : null, sizes = `the new map is PNG: ${png.bytes.length} bytes, before ${old.length}`;
   if (!format) return png;
-  if (format.mimeType === 'image/webp' && !hasWebp) return { ...png, note: `${name}: the model does not require its readers to support WebP, so ${sizes}` };
+  if (format.mimeType === 'image/webp' && !required.includes('image/webp')) return { ...png, note: `${name}: the model does not require its readers to support WebP, so ${sizes}` };
   const bytes = await encodeLossy(image, format);
   if (!bytes) return { ...png, note: `${name}: no encoder for ${format.mimeType} is available (in Node.js: the package sharp), so ${sizes}` };
   if (bytes.length >= png.bytes.length) return png;

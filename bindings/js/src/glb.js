@@ -79,24 +79,25 @@ export function imageIn({ json, rest }, image) {
   return rest.subarray(8 + byteOffset, 8 + byteOffset + byteLength);
 }
 
-const kWebp = 'EXT_texture_webp';
-/** Whether every reader of the model must support WebP. */
-export const requiresWebp = (json) => list(json.extensionsRequired).includes(kWebp);
+const kWebp = 'EXT_texture_webp', kBasisu = 'KHR_texture_basisu', kExtensionOf = { 'image/webp': kWebp, 'image/ktx2': kBasisu };
+/** The types of images, beyond PNG and JPEG, that every reader of the model must support. */
+export const requiredTypes = (json) => Object.keys(kExtensionOf).filter((type) => list(json.extensionsRequired).includes(kExtensionOf[type]));
 
-/** The textures after some images were replaced, which WebP needs an extension for and PNG does not. */
+/** The textures after some images were replaced, which WebP and KTX2 need an extension for and PNG does not. */
 function textureOf({ source, extensions, ...rest }, files) {
-  const { [kWebp]: webp, ...others } = extensions ?? {}, image = webp?.source ?? source, file = files.get(image);
+  const { [kWebp]: webp, [kBasisu]: basisu, ...others } = extensions ?? {}, image = basisu?.source ?? webp?.source ?? source, file = files.get(image);
   if (!file) return { ...rest, ...(source !== undefined && { source }), ...(extensions && { extensions }) };
-  if (file.mimeType === 'image/webp') return { ...rest, extensions: { ...others, [kWebp]: { source: image } } };
+  const extension = kExtensionOf[file.mimeType];
+  if (extension) return { ...rest, extensions: { ...others, [extension]: { source: image } } };
   return { ...rest, source: image, ...(Object.keys(others).length > 0 && { extensions: others }) };
 }
 
-/** json with the extension for WebP listed if a texture has it: as required if one has no fallback. */
-function withWebpListed(json) {
-  const { extensionsUsed, extensionsRequired, ...rest } = json, users = list(json.textures).filter(({ extensions }) => extensions?.[kWebp]);
-  const listed = (names, yes) => [...list(names).filter((name) => name !== kWebp), ...(yes ? [kWebp] : [])];
-  const used = listed(extensionsUsed, users.length > 0);
-  const required = listed(extensionsRequired, users.some(({ source }) => source === undefined) || (users.length > 0 && requiresWebp(json)));
+/** json with an extension for images listed if a texture has it: as required if one has no fallback. */
+function withListed(json, name) {
+  const { extensionsUsed, extensionsRequired, ...rest } = json, users = list(json.textures).filter(({ extensions }) => extensions?.[name]);
+  const listed = (names, yes) => [...list(names).filter((one) => one !== name), ...(yes ? [name] : [])];
+  const used = listed(extensionsUsed, users.length > 0), wasRequired = list(extensionsRequired).includes(name);
+  const required = listed(extensionsRequired, users.some(({ source }) => source === undefined) || (users.length > 0 && wasRequired));
   return { ...rest, ...(used.length > 0 && { extensionsUsed: used }), ...(required.length > 0 && { extensionsRequired: required }) };
 }
 
@@ -114,6 +115,6 @@ export function withImages({ json, rest }, files) {
   view.setUint32(4, 0x004e4942, true);
   for (const [offset, bytes] of pieces) whole.set(bytes, 8 + offset);
   const images = json.images.map((image, k) => (files.has(k) ? { ...image, mimeType: files.get(k).mimeType } : image));
-  const named = withWebpListed({ ...json, textures: json.textures.map((one) => textureOf(one, files)) });
+  const named = Object.values(kExtensionOf).reduce(withListed, { ...json, textures: json.textures.map((one) => textureOf(one, files)) });
   return modelBytes({ json: { ...named, images, bufferViews: views, buffers: [{ ...json.buffers[0], byteLength: at.length }] }, rest: whole });
 }

@@ -22,6 +22,17 @@ const kMaxPixels = 2 ** 26;
 /** Whether bytes are a KTX2 file, which the library decodes and browsers do not. */
 export const isKtx2 = (bytes) => wordAt(bytes, 1) === 'KTX ' && wordAt(bytes, 5) === '20\u00bb\r';
 
+const kBlocks = { 141: 'bc5', 142: 'bc5-snorm', 145: 'bc7', 155: 'eac-rg11', 156: 'eac-rg11', 163: 'uastc', 166: 'uastc' };
+
+/** How cotan/textures writes the blocks of a KTX2 file: { compress, levels }. ETC1S becomes UASTC, the other format of Basis
+ * Universal. Null if it has no encoder for them. */
+export function ktx2Blocks(bytes) {
+  if (bytes.length < 80) return null;
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), described = view.getUint32(48, true);
+  const compress = kBlocks[view.getUint32(12, true) || bytes[described + 12]]; // Vulkan's number, or the colour model
+  return compress ? { compress, levels: view.getUint32(40, true) } : null;
+}
+
 /** The texels of an image that the browser decoded, as they are in its file. */
 function texelsOf(bitmap, name) {
   const { width, height } = bitmap;

@@ -6,7 +6,7 @@ import { bytesOf, checkedImage } from './image_checks.js';
 import { encodedByCaller, encodedLike } from './encoded.js';
 import { decodeImage as decodeOther, isKtx2 } from './image_files.js';
 import { encodePng } from './png.js';
-import { decodedUri, imageIn, parsedModel, requiresWebp, sizeOf, withImages } from './glb.js';
+import { decodedUri, imageIn, parsedModel, requiredTypes, sizeOf, withImages } from './glb.js';
 import { grownBy, inOriginalFormats, keptMaps, kGrowth, modeOf, tooLarge } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
@@ -16,7 +16,7 @@ const kMapsRead = 1, kMapsUnread = 2; // keep_maps of cotan.h
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodeOther, progress: undefined };
 const kConvert = {
-  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', fixGreen: false, maxDegrees: undefined,
+  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, texture: undefined, unsigned: 'biased', fixGreen: false, maxDegrees: undefined,
 };
 
 // Replaces an error whose advice is to rebuild the library by one with advice for users of the npm package.
@@ -34,7 +34,7 @@ function modelOptions(given, known) {
   if (!isRecord(o.files)) refuse('files', 'an object that maps URIs to bytes');
   const files = Object.entries(o.files).map(([uri, bytes]) => [uri, bytesOf(bytes, `options.files['${uri}']`)]);
   o.files = Object.fromEntries([...files.map(([uri, bytes]) => [decodedUri(uri), bytes]), ...files]); // the library asks for decoded ones
-  checkTypes(o, 'function', 'decode', 'encode', 'progress');
+  checkTypes(o, 'function', 'decode', 'encode', 'progress', 'texture');
   checkTypes(o, 'boolean', 'keepTangents', 'generateTangents', 'fixGreen');
   if (o.bits !== undefined && ![0, 8, 16].includes(o.bits)) refuse('bits', '0, 8 or 16');
   if (o.maxDegrees !== undefined && !(typeof o.maxDegrees === 'number' && o.maxDegrees > 0 && o.maxDegrees <= 180)) refuse('maxDegrees', 'a number of degrees above 0, at most 180');
@@ -75,7 +75,7 @@ export function modelFunctions(library, host, flipGreen) {
       return isKtx2(bytes) ? decodeKtx2(bytes, name) : decode(bytes, name);
     } catch (error) {
       const lacks = /not built with (\w+)/.exec(error.message)?.[1];
-      throw lacks ? new CotanError('unavailable', `${name}: KTX2 with ${kPackings[lacks] ?? 'BC blocks'} is read by the command line, not here`) : error;
+      throw lacks ? new CotanError('unavailable', `${name}: KTX2 with ${kPackings[lacks] ?? 'BC6H'} is read by the command line, not here`) : error;
     }
   };
   const decodeImage = async (bytes, name = 'image') => decodeBy(decodeOther, bytesOf(bytes, 'bytes'), name);
@@ -131,7 +131,7 @@ export function modelFunctions(library, host, flipGreen) {
     const model = bytesOf(given, 'model'), o = modelOptions(more, kConvert), mode = modeOf(more), parsed = parsedModel(model);
     if (!parsed) return convertMaps(model, o); // throws an error that says what is wrong
     if (o.fixGreen) return withFixedGreen(model, parsed, o, { ...more, fixGreen: undefined });
-    const before = sizeOf(model, parsed.json, o.files), convertTo = (to) => convertMaps(model, { ...o, to }).then((made) => inOriginalFormats(parsed, o.files, made));
+    const before = sizeOf(model, parsed.json, o.files), convertTo = (to) => convertMaps(model, { ...o, to }).then((made) => inOriginalFormats(parsed, o, made));
     const found = mode === 'convert' ? await convertTo(o.to ?? 'cotangent') : mode === 'drop' ? await withMapsKept(model, parsed, o, kMapsUnread) : await byDefault(model, parsed, o, before);
     return { glb: found.glb, report: { mode: 'convert', ...found.report, bytes: { before, after: found.glb.length } } };
   }
@@ -140,7 +140,7 @@ export function modelFunctions(library, host, flipGreen) {
    * keepMaps: kMapsRead or kMapsUnread, which decodes no map and reverses none. */
   async function withMapsKept(model, parsed, o, keepMaps, more) {
     const made = await convertMaps(model, { ...o, to: undefined, bits: 0, keepMaps, ...more });
-    const { glb, report } = keepMaps === kMapsRead ? await inOriginalFormats(parsed, o.files, made) : { ...made, report: { ...made.report, maps: keptMaps(parsed.json, o.files) } };
+    const { glb, report } = keepMaps === kMapsRead ? await inOriginalFormats(parsed, o, made) : { ...made, report: { ...made.report, maps: keptMaps(parsed.json, o.files) } };
     const given = (parsed.json.meshes ?? []).some((mesh) => mesh.primitives?.some(({ attributes }) => attributes && 'TANGENT' in attributes));
     return { glb, report: { ...report, mode: given && !report.tangents.dropped_primitives ? 'keep' : 'drop' } };
   }
@@ -153,7 +153,7 @@ export function modelFunctions(library, host, flipGreen) {
     const { glb: whole } = await withMapsKept(model, parsed, o, kMapsUnread, { keepTangents: true }), inside = parsedModel(whole), flipped = new Map(), notes = [];
     for (const { image, name } of wrong) {
       const file = imageIn(inside, image), pixels = checkedImage(await decodeBy(o.decode, file, name), 'options.decode', [8, 16]);
-      const right = flipGreen(pixels), found = await encodedLike(right, file, await encodedByCaller(right, o.encode), name, { hasWebp: requiresWebp(inside.json) });
+      const right = flipGreen(pixels), found = await encodedLike(right, file, await encodedByCaller(right, o.encode), name, { required: requiredTypes(inside.json), texture: o.texture });
       flipped.set(image, found);
       if (found.note) notes.push(found.note);
     }

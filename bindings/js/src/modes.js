@@ -1,7 +1,7 @@
 // The modes of dropping tangents: with the maps as they are, or with new ones.
 import { choice } from './arrays.js';
 import { usage, wordsFor } from './errors.js';
-import { imageFile, imageSize, normalImages, parsedModel, requiresWebp, withImages } from './glb.js';
+import { imageFile, imageSize, normalImages, parsedModel, requiredTypes, withImages } from './glb.js';
 import { encodedLike, kVisible } from './encoded.js';
 
 export const kGrowth = 1.02; // file size after over before: the maximum in mode auto
@@ -20,14 +20,13 @@ function allowedLoss({ green_reversed: greenReversed, degrees_after_rounding: af
   return greenReversed ? kVisible : Math.max(kVisible, 0.5 * (before?.mean ?? 0)) - (after?.mean ?? 0);
 }
 
-/** The conversion's result with new maps in the format of the old ones, JPEG or WebP, if that is smaller than PNG and
- * accurate enough. */
-export async function inOriginalFormats(parsed, files, { glb, report, made: pngs }) {
+/** The conversion's result with new maps in the format of the old ones, as encodedLike makes them. texture: of cotan/textures, if given. */
+export async function inOriginalFormats(parsed, { files, texture }, { glb, report, made: pngs }) {
   const made = parsedModel(glb), other = new Map(), notes = [], maps = report.maps.map((map) => ({ ...map })), remade = maps.filter((map) => !map.kept);
   for (const [k, map] of remade.entries()) {
     const { image, ...png } = pngs[k], old = imageFile(parsed, map.image, files);
     const { bytes, mimeType, note, ...found } = map.kept_elsewhere ? png : await encodedLike(image, old, png, map.name,
-      { hasWebp: requiresWebp(parsed.json), loss: allowedLoss(map) });
+      { required: requiredTypes(parsed.json), texture, loss: allowedLoss(map) });
     if (note) notes.push(note);
     if (mimeType !== png.mimeType) other.set(map.image, { bytes, mimeType });
     Object.assign(map, { bytes_after: bytes.length, degrees_of_encoding: found.degrees, ...(found.format && { format: found.format, quality: found.quality }) });

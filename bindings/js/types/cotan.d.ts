@@ -1,4 +1,5 @@
 import type { Split } from './tangents.js';
+import type { texture } from './textures.js';
 export * from './old_names.js';
 export * from './tangents.js';
 
@@ -255,7 +256,8 @@ export interface ConvertReport {
  *   Tangents that reverse green of a map stay.
  * - `convert`: makes new maps as `cotan convert --to-frame` does; the default with `to`, `bits` or `keepTangents`. These
  *   keep the format of the old ones: JPEG and WebP at the same quality if sharp, or the canvas in browsers, encodes
- *   them, and if that costs no more than half a degree, or half of what the conversion gains; else PNG, with a note.
+ *   them, and if that costs no more than half a degree, or half of what the conversion gains; KTX2 with the option
+ *   `texture`. Else they are PNG, with a note.
  * Tangents that glTF requires stay, with a note: those of materials with anisotropy, or with a normal map of the clear coat,
  * without normalTexture. */
 export function convert(model: Bytes, options?: ModelOptions & {
@@ -278,6 +280,8 @@ export function convert(model: Bytes, options?: ModelOptions & {
   unsigned?: 'biased' | 'exact';
   /** Encodes an image as a PNG file; default: encodePng. The file is decoded again to measure its losses. */
   encode?: (image: Image) => Promise<Bytes>;
+  /** The function of cotan/textures, which encodes new maps in place of KTX2. Without it they become PNG. */
+  texture?: (...words: Parameters<typeof texture>) => ReturnType<typeof texture> | Promise<ReturnType<typeof texture>>;
 }): Promise<{ glb: Uint8Array; report: ConvertReport }>;
 
 // ---- images

@@ -29,7 +29,7 @@ export function texture(map: Image, options?: {
 }): {
   bytes: Uint8Array;
   levels: number;
-  /** Angles between the map and the largest level as it is read; 99 % of the texels are within the second. null: this
-   * library cannot decode the format. */
+  /** Angles between the map and the largest level as it is read; 99 % of the texels are within the second. null: DDS,
+   * which this library does not read. */
   degrees: { mean: number; percentile99: number } | null;
 };

@@ -267,8 +267,8 @@ typedef struct cotan_texture_options {
     int mips;              /* not 0: all levels to 1 x 1, filtered as vectors; 0: the largest level only */
 } cotan_texture_options;
 
-/* Degrees between the map and the largest level as it is read. -1: this build cannot decode the format, as npm's cannot
- * decode BC. */
+/* Degrees between the map and the largest level as it is read. -1: this build cannot decode the file, as npm's cannot
+ * decode DDS. */
 typedef struct cotan_texture_result {
     size_t size;
     int levels;

@@ -152,52 +152,7 @@ std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& le
     return data;
 }
 
-// Codes of a file of blocks: DXGI_FORMAT or VkFormat, and KHR_DF_MODEL of a KTX2 without VkFormat.
-struct FileCodes {
-    std::uint32_t dxgi = 0, vulkan = 0, model = 0;
-};
-
-FileCodes codesOf(std::span<const std::byte> file)
-{
-    const auto number = [&](std::size_t at) {
-        std::uint32_t value = 0;
-        if (at <= file.size() && file.size() - at >= 4)
-            std::memcpy(&value, file.data() + at, 4);
-        return value;
-    };
-    const ImageFormat* const format = imageFormatOf(file);
-    if (format && format->name == "KTX2")
-        return {0, number(12), number(12) == 0 ? number(std::size_t(number(48)) + 12) & 0xff : 0};
-    if (!format || format->name != "DDS" || file.size() < 132)
-        return {};
-    const std::string_view letters(reinterpret_cast<const char*>(file.data()) + 84, 4);
-    constexpr std::pair<std::string_view, std::uint32_t> kOld[] = {
-        {"DXT5", 77}, {"ATI2", 83}, {"BC5U", 83}, {"BC5S", 84}};
-    for (const auto& [name, dxgi] : kOld)
-        if (letters == name)
-            return {dxgi, 0, 0};
-    return {letters == "DX10" ? number(128) : 0, 0, 0};
-}
-
 } // namespace
-
-std::string compressionOf(std::span<const std::byte> file)
-{
-    const FileCodes found = codesOf(file);
-    for (const std::string& word : compressionWords()) {
-        const TexelCode code = *codeNamed(word);
-        const CodeFacts facts = factsOf(code);
-        const bool hasSrgb =
-            code == TexelCode::bc3 || code == TexelCode::bc7 || code == TexelCode::astc; // the next code
-        const bool isKtx2 = found.vulkan != 0 && facts.vulkan != 0
-            && (found.vulkan == facts.vulkan || (hasSrgb && found.vulkan == facts.vulkan + 1));
-        const bool isBasis = code == TexelCode::uastc && found.model == facts.model;
-        const bool isDds = found.dxgi != 0 && found.dxgi == facts.dxgi;
-        if (word != "none" && (isKtx2 || isBasis || isDds))
-            return word;
-    }
-    return {};
-}
 
 std::string textureBytes(const std::filesystem::path& file, const TexelCode& code,
                          const std::vector<TextureLevel>& levels, const std::string& frame)

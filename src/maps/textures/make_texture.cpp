@@ -21,15 +21,24 @@ Result<MadeTexture> makeTexture(Image map, const TextureSettings& s)
     const Convention taken = codeConvention(*code, s.to);
     const PixelType type = *code == TexelCode::rgba8 ? PixelType::unorm8 : PixelType::float32;
     RecodeCounts counts;
-    const Image stored = recode(map, {.from = s.from, .to = taken, .type = type}, counts);
+    Image stored = recode(map, {.from = s.from, .to = taken, .type = type}, counts);
+    stored.frame = map.frame;
     COTAN_TRY(first, levelOf(stored, *code, s.to));
-    std::vector<TextureLevel> levels{*std::move(first)};
+    return finishTexture(stored, taken, *code, *std::move(first), &map, s);
+}
+
+Result<MadeTexture> finishTexture(const Image& image, const Convention& taken, const TexelCode& code,
+                                  TextureLevel first, const Image* map, const TextureSettings& s)
+{
+    std::vector<TextureLevel> levels{std::move(first)};
     if (s.mips)
-        COTAN_CHECK(addMips(stored, taken, *code, s.to, levels));
-    const std::string bytes = textureBytes(s.file, *code, levels, map.frame);
+        COTAN_CHECK(addMips(image, taken, code, s.to, levels));
+    const std::string bytes = textureBytes(s.file, code, levels, image.frame);
     const auto view = std::as_bytes(std::span(bytes));
-    MadeTexture made{{view.begin(), view.end()}, int(levels.size()), storedConvention(*code, s.to)};
-    const auto cost = costOf(map, s.from, view, made.stored);
+    MadeTexture made{{view.begin(), view.end()}, int(levels.size()), storedConvention(code, s.to)};
+    if (!map)
+        return made;
+    const auto cost = costOf(*map, s.from, view, made.stored);
     if (cost)
         made.cost = *cost;
     else if (cost.error().kind != ErrorKind::unavailable)

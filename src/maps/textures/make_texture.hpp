@@ -27,6 +27,11 @@ struct MadeTexture {
 // Image::frame is stored by KTX2. Errors: as codeFor and levelOf.
 Result<MadeTexture> makeTexture(Image map, const TextureSettings& settings);
 
+// The same from the largest level on. image: what that level was made of, in `taken`, a codeConvention. map: what the
+// texture is compared with, in settings.from; null: nothing. Errors: as levelOf.
+Result<MadeTexture> finishTexture(const Image& image, const Convention& taken, const TexelCode& code,
+                                  TextureLevel first, const Image* map, const TextureSettings& settings);
+
 // How a model can hold blocks: the words of --compress that an extension of glTF names, and that extension.
 std::vector<std::string> modelCompressionWords();
 std::string extensionOf(const std::string& compress);

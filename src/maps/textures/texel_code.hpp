@@ -64,10 +64,6 @@ bool isTextureFile(const std::filesystem::path& file);
 std::string textureBytes(const std::filesystem::path& file, const TexelCode& code,
                          const std::vector<TextureLevel>& levels, const std::string& frame = {});
 
-// The word of compressionWords for the blocks of a DDS or KTX2 file, of which only the header is read. Empty: another
-// file, pixels, or blocks that no word names, such as BC1 and ETC.
-std::string compressionOf(std::span<const std::byte> file);
-
 // Normals as a level of a texture that is read as `to`. image: in codeConvention; unorm8 for rgba8, else float32.
 // lengths: for bc7 and uastc, keeps the lengths of vectors. Errors: ErrorKind::unavailable for ASTC in a build without
 // it.

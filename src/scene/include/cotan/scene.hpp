@@ -56,6 +56,8 @@ struct Image {
     // Number of channels in the file: 1 grey, 2 (KTX2 and DDS: red and green; others: grey and alpha), 3 or 4. 4 if
     // unknown.
     int channels = 4;
+    // The word of --compress for the blocks that the file holds. Empty: pixels, or blocks that no word names.
+    std::string blocks = {};
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
     std::size_t bytesPerPixel() const { return 4 * bytesPerComponent(type); }
