@@ -75,8 +75,7 @@ Status neighbour(State& state, int step)
 
 Status setFrame(Side& side, const std::string& name)
 {
-    if (const auto frame = parseFrameChoice(name); !frame)
-        return frame.error();
+    COTAN_CHECK(parseFrameChoice(name));
     side.frame = name;
     side.high = false;
     return Done{};
@@ -95,8 +94,7 @@ Status setSide(Side& side, const std::string& what, const std::string& value)
         side.normalMap = value;
     } else if (what == "convention") {
         if (!value.empty())
-            if (const auto known = parseConvention(value); !known)
-                return known.error();
+            COTAN_CHECK(parseConvention(value));
         side.convention = value;
     } else if (what == "high") {
         if (value != "on" && value != "off")
