@@ -15,9 +15,9 @@ namespace {
 // Copies of the tables in apps/lab; a test compares them.
 constexpr const char* kTables[] = {"flat",   "foreshortening", "perspective", "views",      "signs",      "curved",
                                    "facets", "precision",      "half",        "degenerate", "procedural", "rendered"};
-constexpr const char* kFigures[] = {"2.6.3",   "2.6.4",     "2.6.5",    "tutorial", "normal-matrices", "mirrored",
-                                    "targets", "decode",    "faceting", "sparkle",  "flicker",         "parallax",
-                                    "decal",   "triplanar", "grooves",  "isolines"};
+constexpr const char* kFigures[] = {"2.6.3",    "2.6.4",  "2.6.5",     "normal-matrices", "mirrored",
+                                    "targets",  "decode", "faceting",  "sparkle",         "flicker",
+                                    "parallax", "decal",  "triplanar", "grooves",         "isolines"};
 // Rows other than the frames and their fused forms.
 constexpr const char* kRows[] = {"triangle-halfs",   "triangle-read",        "triangle-scaled",
                                  "cotangent-seen",   "cotangent-area-fused", "cotangent-plain",

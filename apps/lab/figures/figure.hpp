@@ -45,7 +45,6 @@ struct Figure {
 Figure makeTeapotFigure(FigureRenderer& studio);
 Figure makePatchFigure(FigureRenderer& studio);
 Figure makePlaneFigure(FigureRenderer& studio);
-Figure makeTutorialFigure(FigureRenderer& studio);
 Figure makeNormalMatrixFigure(FigureRenderer& studio);
 Figure makeMirroredFigure(FigureRenderer& studio);
 Figure makeTargetsFigure(FigureRenderer& studio);

@@ -24,21 +24,13 @@ struct FigureInfo {
 };
 
 constexpr FigureInfo kFigures[] = {
-    {"2.6.3", makeTeapotFigure},
-    {"2.6.4", makePatchFigure},
-    {"2.6.5", makePlaneFigure},
-    {"tutorial", makeTutorialFigure},
-    {"normal-matrices", makeNormalMatrixFigure},
-    {"mirrored", makeMirroredFigure},
-    {"targets", makeTargetsFigure},
-    {"decode", makeDecodeFigure},
-    {"faceting", makeFacetingFigure},
-    {"sparkle", makeSparkleFigure},
-    {"flicker", makeFlickerFigure},
-    {"parallax", makeParallaxFigure},
-    {"decal", makeDecalFigure},
-    {"triplanar", makeTriplanarFigure},
-    {"grooves", makeGroovesFigure},
+    {"2.6.3", makeTeapotFigure},        {"2.6.4", makePatchFigure},
+    {"2.6.5", makePlaneFigure},         {"normal-matrices", makeNormalMatrixFigure},
+    {"mirrored", makeMirroredFigure},   {"targets", makeTargetsFigure},
+    {"decode", makeDecodeFigure},       {"faceting", makeFacetingFigure},
+    {"sparkle", makeSparkleFigure},     {"flicker", makeFlickerFigure},
+    {"parallax", makeParallaxFigure},   {"decal", makeDecalFigure},
+    {"triplanar", makeTriplanarFigure}, {"grooves", makeGroovesFigure},
     {"isolines", makeIsolinesFigure},
 };
 

@@ -122,21 +122,6 @@ Image differenceOf(const Image& a, const Image& b, int factor)
     return out;
 }
 
-Levels levelsBetween(const Image& a, const Image& b)
-{
-    Levels levels;
-    double sum = 0;
-    for (std::size_t i = 0; i < a.pixelCount(); ++i) {
-        int largest = 0;
-        for (std::size_t c = 0; c < 3; ++c)
-            largest = std::max(largest, std::abs(a.bytes8()[4 * i + c] - b.bytes8()[4 * i + c]));
-        sum += largest;
-        levels.maximum = std::max(levels.maximum, largest);
-    }
-    levels.mean = sum / double(a.pixelCount());
-    return levels;
-}
-
 namespace {
 
 // Mean of a box of pixels, in [0,255].
