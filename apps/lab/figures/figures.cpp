@@ -24,14 +24,10 @@ struct FigureInfo {
 };
 
 constexpr FigureInfo kFigures[] = {
-    {"2.6.3", makeTeapotFigure},        {"2.6.4", makePatchFigure},
-    {"2.6.5", makePlaneFigure},         {"normal-matrices", makeNormalMatrixFigure},
-    {"mirrored", makeMirroredFigure},   {"targets", makeTargetsFigure},
-    {"decode", makeDecodeFigure},       {"faceting", makeFacetingFigure},
-    {"sparkle", makeSparkleFigure},     {"flicker", makeFlickerFigure},
-    {"parallax", makeParallaxFigure},   {"decal", makeDecalFigure},
-    {"triplanar", makeTriplanarFigure}, {"grooves", makeGroovesFigure},
-    {"isolines", makeIsolinesFigure},
+    {"2.6.3", makeTeapotFigure},        {"2.6.4", makePatchFigure},       {"2.6.5", makePlaneFigure},
+    {"mirrored", makeMirroredFigure},   {"faceting", makeFacetingFigure}, {"sparkle", makeSparkleFigure},
+    {"flicker", makeFlickerFigure},     {"parallax", makeParallaxFigure}, {"decal", makeDecalFigure},
+    {"triplanar", makeTriplanarFigure}, {"grooves", makeGroovesFigure},   {"isolines", makeIsolinesFigure},
 };
 
 // Returns the figures with these names in the order of the table; all of them if `only` is empty.

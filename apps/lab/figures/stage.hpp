@@ -35,9 +35,6 @@ View wideView(const FigureRenderer& studio, const Camera& camera);
 // Draws `inset` with a frame around it into the lower right corner of `image`. Both are unorm8.
 void pasteInset(Image& image, const Image& inset);
 
-// |a - b| * factor per channel, opaque. Both images are unorm8 and have the same size.
-Image differenceOf(const Image& a, const Image& b, int factor);
-
 // All images in a grid with `columns` columns on grey, each shrunk to fit a cell.
 Image contactSheet(const std::vector<const Image*>& images, int columns, int cellWidth, int cellHeight);
 
