@@ -93,8 +93,7 @@ Status run(const CompareCommandOptions& o)
     say(o, "{} against {}, {} pixels: {}", a, b, compared->normals.count, toText(*compared));
     say(o, compared->verdict);
     say(o,
-        "images in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, "
-        "green 2, yellow 5, red 15, white 45 degrees)",
+        "images in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees)",
         o.output.string(), a, b);
     return writeReport(o, report);
 }

@@ -298,8 +298,7 @@ void declare(Arguments& a, ConvertCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required().reads();
     a.option("--from-frame", o.from,
-             "frame that the maps were made for (default: the one that the file names, else "
-             "mikktspace)")
+             "frame that the maps were made for (default: the one that the file names, else mikktspace)")
         .in("FRAME")
         .offers(frameWords())
         .main();

@@ -161,11 +161,9 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option(
          "--form", o.form,
          "fused: frame and texel in one step (cotangent, gradient, orthonormal, smooth, triangle); total: the frame as "
-         "three covectors, for any input; readable: another name for total; for cotangent also seen (the cheapest: "
-         "the normal "
-         "faces the viewer; a constant gives the image orientation) and area (for square texels). Default: fused "
-         "where "
-         "available, except for smooth")
+         "three covectors, for any input; readable: another name for total; for cotangent also seen (the cheapest: the "
+         "normal faces the viewer; a constant gives the image orientation) and area (for square texels). Default: "
+         "fused where available, except for smooth")
         .in("NAME")
         .offers({"fused", "total", "readable", "seen", "area"});
     a.option("--stage", o.stage,
