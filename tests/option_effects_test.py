@@ -155,7 +155,7 @@ CASES = [
     ("shader --lang godot", {"--functions": "", "--two-sided": ""}),
     ("accuracy --tables degenerate,signs --csv out.csv", {"--tables": "half | signs", "--scene": "!nothing", "--frames": "cotangent | smooth,exact", "--threads": "=1 | =3"}),
     ("accuracy --tables signs", {"--csv": "out.csv", "--list": "", "--list-frames": "", "--against": "!rocks.png"}),
-    ("figures --only decode --size 32x24 -o out", {"--only": "*", "--size": "40x24", "--device": "reference", "--threads": "=1 | =3"}),
+    ("figures --only mirrored --size 32x24 -o out", {"--only": "*", "--size": "40x24", "--device": "reference", "--threads": "=1 | =3"}),
 ]
 GROUPS = ["render", "compare", "bake", "convert", "map"]
 # Options and commands with tests in other files.

@@ -51,7 +51,7 @@ CASES = [
     "tangents plain.gltf -o out.gltf --json out.json",
     "shader --lang glsl --frame smooth -o out.glsl --json out.json",
     "accuracy --tables signs --against old.csv --csv out.csv -o out.md --json out.json",
-    "figures --only decode --size 32x24 --device reference -o out --json out.json",
+    "figures --only mirrored --size 32x24 --device reference -o out --json out.json",
     "cost --cards cards.csv --no-timing -o out.md --csv out.csv --write-cards made.csv --json out.json",
     "batch jobs.jsonl --jobs 1 --store kept -o out.html --json out.json",
 ]

@@ -121,8 +121,7 @@ Result<std::vector<MapJob>> mapsOf(const BakeJob& job, const Scene& low)
             for (PlannedOutput& file : plannedFor(job, maps.back().files, job.options.tiles))
                 planned.push_back(std::move(file));
     }
-    if (const auto free = planOutputs(std::move(planned)); !free)
-        return free.error();
+    COTAN_CHECK(planOutputs(std::move(planned)));
     return maps;
 }
 
@@ -169,8 +168,7 @@ Result<std::vector<int>> chooseTiles(const BakeJob& job, const MapJob& one, cons
         return inputError(
             fmt::format("{}: expected triangles on the tiles 1001 to 1999 (--udim all); found none", job.low));
     if (job.allTiles)
-        if (const auto free = planOutputs(plannedFor(job, one.files, wanted)); !free)
-            return free.error();
+        COTAN_CHECK(planOutputs(plannedFor(job, one.files, wanted)));
     return wanted;
 }
 
@@ -216,10 +214,9 @@ Status bakeMaps(const BakeJob& job, const MapJob& one, OpenBake& open, std::vect
 {
     std::vector<std::string> warnings = open.warnings;
     Stopwatch watch;
-    auto map = withProgress(job.common, 0, "preparing the meshes",
-                            [&](const Progress&) { return prepareMap(job, open, one.object); });
-    if (!map)
-        return map.error();
+    COTAN_TRY(map, withProgress(job.common, 0, "preparing the meshes", [&](const Progress&) {
+                  return prepareMap(job, open, one.object);
+              }));
     COTAN_TRY(tiles, chooseTiles(job, one, map->setup.low, map->warnings));
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
     for (const std::string& line : reports.empty() ? warnings : map->warnings) // an error so far is the only line
@@ -245,9 +242,7 @@ Result<std::vector<MapReport>> bakeAll(const BakeJob& job)
 {
     warnIfLossy(job.common, job.files.maps.front());
     Stopwatch watch;
-    auto open = withProgress(job.common, 0, "loading the meshes", [&](const Progress&) { return openBake(job); });
-    if (!open)
-        return open.error();
+    COTAN_TRY(open, withProgress(job.common, 0, "loading the meshes", [&](const Progress&) { return openBake(job); }));
     const double openSeconds = watch.lap();
     COTAN_TRY(maps, mapsOf(job, open->low));
     std::vector<MapReport> reports;

@@ -152,8 +152,7 @@ std::string readersOf(Frame frame)
 {
     if (frame == Frame::mikktspace)
         return "the map is for the frame mikktspace: Unity, Unreal, Godot, Blender and glTF viewers read it with "
-               "tangents "
-               "that they generate or import, Cotan's shaders without tangents with the frame orthonormal";
+               "tangents that they generate or import, Cotan's shaders without tangents with the frame orthonormal";
     if (frame == Frame::areaWeighted)
         return "the map is for the frame area-weighted: engines that make tangents by meshoptimizer's defaults read "
                "it, "

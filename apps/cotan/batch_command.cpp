@@ -150,9 +150,7 @@ Status run(const Arguments& tool, const BatchOptions& o)
     COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}, /*again*/ true));
     Stopwatch watch;
     const std::filesystem::path base = std::filesystem::absolute(o.jobs).parent_path();
-    const auto list = readJobs(o.jobs, [&](Job& job) { return setFiles(tool, base, job); });
-    if (!list)
-        return list.error();
+    COTAN_TRY(list, readJobs(o.jobs, [&](Job& job) { return setFiles(tool, base, job); }));
     const auto plan = planJobs(*list);
     if (!plan)
         return inputError(fmt::format("{}: {}", o.jobs, plan.error().message));

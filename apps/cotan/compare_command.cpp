@@ -65,15 +65,13 @@ Status run(const CompareCommandOptions& o)
     COTAN_TRY(renderer, makePictureRenderer(o.picture, o, *picture));
     Stopwatch watch;
     const std::size_t pictures = kComparedFramesImages + (o.picture.edges != Edges::none ? 2 : 0);
-    const auto compared = drawWithProgress(o, **renderer, pictures, "drawing", [&]() -> Result<ComparedFrames> {
-        auto drawn = compareFrames(**renderer, picture->scene, picture->view, frames);
-        if (drawn)
-            for (Image& image : drawn->shaded)
-                COTAN_CHECK(layEdges(**renderer, picture->view, o.picture, picture->edges, image));
-        return drawn;
-    });
-    if (!compared)
-        return compared.error();
+    COTAN_TRY(compared, drawWithProgress(o, **renderer, pictures, "drawing", [&]() -> Result<ComparedFrames> {
+                  auto drawn = compareFrames(**renderer, picture->scene, picture->view, frames);
+                  if (drawn)
+                      for (Image& image : drawn->shaded)
+                          COTAN_CHECK(layEdges(**renderer, picture->view, o.picture, picture->edges, image));
+                  return drawn;
+              }));
     const double drawSeconds = watch.lap();
 
     COTAN_CHECK(makeFolder(o.output));
@@ -95,8 +93,7 @@ Status run(const CompareCommandOptions& o)
     say(o, "{} against {}, {} pixels: {}", a, b, compared->normals.count, toText(*compared));
     say(o, compared->verdict);
     say(o,
-        "images in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, "
-        "green 2, yellow 5, red 15, white 45 degrees)",
+        "images in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees)",
         o.output.string(), a, b);
     return writeReport(o, report);
 }

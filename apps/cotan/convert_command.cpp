@@ -153,11 +153,9 @@ Status compress(GltfDocument& document, const ConvertJob& job, const CommonOptio
         costs.push_back(texture->cost.value_or(maps::TextureCost{}));
         return std::move(texture->bytes);
     };
-    auto stored = withProgress(terminal, 1, "compressing the maps", [&](Progress progress) {
-        return storeNormalMaps(document, encode, maps::extensionOf(job.compress), job.limits, progress);
-    });
-    if (!stored)
-        return stored.error();
+    COTAN_TRY(stored, withProgress(terminal, 1, "compressing the maps", [&](Progress progress) {
+                  return storeNormalMaps(document, encode, maps::extensionOf(job.compress), job.limits, progress);
+              }));
     for (std::size_t i = 0; i < costs.size(); ++i) {
         StoredMap& map = stored->maps[i];
         const auto named = std::ranges::find(done.maps.maps, map.image, &ConvertedMap::image);
@@ -178,12 +176,10 @@ Result<ConvertResult> convert(ConvertJob job, const CommonOptions& terminal)
         if (job.fileNamesFrom)
             job.maps->frames.from = named->value_or(job.maps->frames.from);
         done.frames = job.maps->frames;
-        auto maps = withProgress(terminal, 1, "converting " + job.model, [&](Progress progress) {
-            job.maps->progress = std::move(progress);
-            return convertModel(*opened, *job.maps);
-        });
-        if (!maps)
-            return maps.error();
+        COTAN_TRY(maps, withProgress(terminal, 1, "converting " + job.model, [&](Progress progress) {
+                      job.maps->progress = std::move(progress);
+                      return convertModel(*opened, *job.maps);
+                  }));
         done.maps = std::move(*maps);
     }
     opened->scene = {}; // its memory
@@ -277,8 +273,7 @@ Status run(const ConvertCommandOptions& o)
     const CommonOptions& terminal = o;
     COTAN_CHECK(beginOutputs(terminal, outputsOf(*job)));
     if (job->verify) // fails before any work
-        if (const auto renderer = openRenderer(job->verify->device, terminal.threads); !renderer)
-            return renderer.error();
+        COTAN_CHECK(openRenderer(job->verify->device, terminal.threads));
     Stopwatch watch;
     const auto done = convert(*job, terminal);
     if (!done)
@@ -303,8 +298,7 @@ void declare(Arguments& a, ConvertCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required().reads();
     a.option("--from-frame", o.from,
-             "frame that the maps were made for (default: the one that the file names, else "
-             "mikktspace)")
+             "frame that the maps were made for (default: the one that the file names, else mikktspace)")
         .in("FRAME")
         .offers(frameWords())
         .main();

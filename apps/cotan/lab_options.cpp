@@ -15,9 +15,8 @@ namespace {
 // Copies of the tables in apps/lab; a test compares them.
 constexpr const char* kTables[] = {"flat",   "foreshortening", "perspective", "views",      "signs",      "curved",
                                    "facets", "precision",      "half",        "degenerate", "procedural", "rendered"};
-constexpr const char* kFigures[] = {"2.6.3",   "2.6.4",     "2.6.5",    "tutorial", "normal-matrices", "mirrored",
-                                    "targets", "decode",    "faceting", "sparkle",  "flicker",         "parallax",
-                                    "decal",   "triplanar", "grooves",  "isolines"};
+constexpr const char* kFigures[] = {"2.6.3",   "2.6.4",    "2.6.5", "mirrored",  "faceting", "sparkle",
+                                    "flicker", "parallax", "decal", "triplanar", "grooves",  "isolines"};
 // Rows other than the frames and their fused forms.
 constexpr const char* kRows[] = {"triangle-halfs",   "triangle-read",        "triangle-scaled",
                                  "cotangent-seen",   "cotangent-area-fused", "cotangent-plain",
@@ -139,7 +138,7 @@ void addFiguresCommand(Arguments& tool, Status (*run)(const FiguresCommandOption
         {"figures",
          "Draw the figures of the papers, with errors in degrees, as one HTML page and PNGs.",
          "folder for index.html and the images",
-         {"cotan figures --only mirrored -o figures", "cotan figures --only 2.6.4,decode --size 240x180 -o figures"},
+         {"cotan figures --only mirrored -o figures", "cotan figures --only 2.6.4,mirrored --size 240x180 -o figures"},
          /*needsOutput=*/true},
         declare, run);
 }

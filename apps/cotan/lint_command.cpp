@@ -99,10 +99,9 @@ Result<LintResult> lint(const LintJob& job, const CommonOptions& terminal)
     LintResult done;
     done.scene = *std::move(scene);
     done.loadSeconds = watch.lap();
-    auto report = withProgress(terminal, 1, "measuring " + job.model,
-                               [&](const Progress& progress) { return lintScene(done.scene, job.lint, progress); });
-    if (!report)
-        return report.error();
+    COTAN_TRY(report, withProgress(terminal, 1, "measuring " + job.model, [&](const Progress& progress) {
+                  return lintScene(done.scene, job.lint, progress);
+              }));
     done.report = std::move(*report);
     done.check = checkLimits(done.report, job.limits);
     done.command = commandFor(job, done.report);

@@ -34,20 +34,16 @@ Result<Convention> conventionOf(const ShaderCommandOptions& o)
     if (o.language == "godot") // its importer may drop blue; code that reads it would fail silently
         c.channels = Channels::orthographic;
     COTAN_CHECK(choose(c, "--preset", o.preset, presets));
-    if (Status ok = choose(c.channels, "--channels", o.channels,
-                           {{"3", Channels::xyz},
-                            {"2", Channels::orthographic},
-                            {"stereographic", Channels::stereographic},
-                            {"slope", Channels::slope}});
-        !ok)
-        return ok.error();
-    if (Status ok = choose(c.expansion, "--unsigned", o.expansion,
-                           {{"exact", Expansion::exact},
-                            {"exact16", Expansion::exact16},
-                            {"biased", Expansion::biased},
-                            {"signed", Expansion::signedValues}});
-        !ok)
-        return ok.error();
+    COTAN_CHECK(choose(c.channels, "--channels", o.channels,
+                       {{"3", Channels::xyz},
+                        {"2", Channels::orthographic},
+                        {"stereographic", Channels::stereographic},
+                        {"slope", Channels::slope}}));
+    COTAN_CHECK(choose(c.expansion, "--unsigned", o.expansion,
+                       {{"exact", Expansion::exact},
+                        {"exact16", Expansion::exact16},
+                        {"biased", Expansion::biased},
+                        {"signed", Expansion::signedValues}}));
     COTAN_CHECK(choose(c.greenUp, "--green", o.green, {{"along-v", true}, {"against-v", false}}));
     if (!o.green.empty())
         c.v = VDirection::up;
@@ -100,13 +96,9 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
             choice.form = form;
             wanted = name(Frame::cotangent);
         }
-    const Result<Frame> frame = parseFrame(wanted, "--frame");
-    if (!frame)
-        return frame.error();
+    COTAN_TRY(frame, parseFrame(wanted, "--frame"));
     choice.frame = *frame;
-    const Result<Convention> convention = conventionOf(o);
-    if (!convention)
-        return convention.error();
+    COTAN_TRY(convention, conventionOf(o));
     choice.convention = *convention;
     choice.uvSets = o.uvSets;
     if (o.functions && choice.language != shader_text::Language::godot)
@@ -132,13 +124,9 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
 
 Status run(const ShaderCommandOptions& o)
 {
-    const Result<Choice> choice = choiceOf(o);
-    if (!choice)
-        return choice.error();
+    COTAN_TRY(choice, choiceOf(o));
     COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}));
-    const Result<shader_text::ShaderText> text = makeShaderText(*choice);
-    if (!text)
-        return text.error();
+    COTAN_TRY(text, makeShaderText(*choice));
     if (!o.output.empty()) {
         COTAN_CHECK(writeFileWhole(o.output, text->text));
     } else if (o.json != "-") {
@@ -173,11 +161,9 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option(
          "--form", o.form,
          "fused: frame and texel in one step (cotangent, gradient, orthonormal, smooth, triangle); total: the frame as "
-         "three covectors, for any input; readable: another name for total; for cotangent also seen (the cheapest: "
-         "the normal "
-         "faces the viewer; a constant gives the image orientation) and area (for square texels). Default: fused "
-         "where "
-         "available, except for smooth")
+         "three covectors, for any input; readable: another name for total; for cotangent also seen (the cheapest: the "
+         "normal faces the viewer; a constant gives the image orientation) and area (for square texels). Default: "
+         "fused where available, except for smooth")
         .in("NAME")
         .offers({"fused", "total", "readable", "seen", "area"});
     a.option("--stage", o.stage,

@@ -110,10 +110,9 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
 {
     COTAN_CHECK(makeFolder(folder));
     COTAN_TRY(renderer, openDevice(device, common));
-    const auto compared = drawWithProgress(common, **renderer, kBakeViews, "drawing and comparing",
-                                           [&] { return verifyBake(**renderer, bake); });
-    if (!compared)
-        return compared.error();
+    COTAN_TRY(compared, drawWithProgress(common, **renderer, kBakeViews, "drawing and comparing", [&] {
+                  return verifyBake(**renderer, bake);
+              }));
     for (std::size_t k = 0; k < compared->views.size(); ++k)
         say(common, "view {}: {}", k, toText(compared->views[k].degrees));
     COTAN_CHECK(writeViews(*compared, kBakeNames, folder));

@@ -101,8 +101,7 @@ Status runAccuracy(const AccuracyCommandOptions& o)
     if (o.list)
         return listTables(o);
     if (!o.against.empty()) // check it first: measuring may take hours
-        if (const auto before = readMeasurements(o.against); !before)
-            return before.error();
+        COTAN_CHECK(readMeasurements(o.against));
     COTAN_TRY(tables, chooseTables(o.tables));
     COTAN_TRY(selection, chooseRows(o));
     std::unique_ptr<Renderer> renderer; // opened first: a missing device is reported before measuring
@@ -110,18 +109,14 @@ Status runAccuracy(const AccuracyCommandOptions& o)
         COTAN_TRY(opened, openDevice(o.device, o));
         renderer = *std::move(opened);
     }
-    auto measured = withProgress(o, 1, "measuring tables", [&](const Progress& progress) {
-        return measureTables(tables->computed, *selection, o.threads, progress);
-    });
-    if (!measured)
-        return measured.error();
+    COTAN_TRY(measured, withProgress(o, 1, "measuring tables", [&](const Progress& progress) {
+                  return measureTables(tables->computed, *selection, o.threads, progress);
+              }));
     std::vector<Measurement> rows = *std::move(measured);
     if (renderer) {
-        const auto rendered = withProgress(o, 1, "drawing surfaces", [&](const Progress& progress) {
-            return figures::measureRendered(*renderer, *selection, progress);
-        });
-        if (!rendered)
-            return rendered.error();
+        COTAN_TRY(rendered, withProgress(o, 1, "drawing surfaces", [&](const Progress& progress) {
+                      return figures::measureRendered(*renderer, *selection, progress);
+                  }));
         rows.insert(rows.end(), rendered->begin(), rendered->end());
     }
     if (rows.empty())

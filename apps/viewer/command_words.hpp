@@ -1,16 +1,15 @@
 // Shared by the command files: parsing the words of a line, and errors for invalid ones.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/parse_number.hpp"
 #include "cotan/result.hpp"
+#include "event.hpp"
 #include "state.hpp"
 
 namespace cotan::viewer {
@@ -19,14 +18,7 @@ namespace cotan::viewer {
 struct Words {
     std::string rest;
 
-    std::string next()
-    {
-        const std::size_t start = std::min(rest.find_first_not_of(' '), rest.size());
-        const std::size_t end = std::min(rest.find(' ', start), rest.size());
-        std::string word = rest.substr(start, end - start);
-        rest = rest.substr(std::min(end + 1, rest.size()));
-        return word;
-    }
+    std::string next() { return nextWord(rest); }
     Result<float> number(const char* what)
     {
         const std::string word = next();

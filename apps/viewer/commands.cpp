@@ -20,12 +20,17 @@ namespace cotan::viewer {
 
 namespace {
 
+Status ask(State& state, Request request)
+{
+    state.requests.push_back(std::move(request));
+    return Done{};
+}
+
 Status openHigh(State& state, const std::string& file)
 {
-    if (file.empty())
-        closeHigh(state);
-    else
-        state.requests.push_back(request::LoadHigh{{file}});
+    if (!file.empty())
+        return ask(state, request::LoadHigh{{file}});
+    closeHigh(state);
     return Done{};
 }
 
@@ -45,12 +50,11 @@ Status openFile(State& state, const std::string& file)
         state.a.normalMap = file; // a normal map
         if (state.picture.model.empty() && state.picture.shape.empty()) {
             state.picture.shape = "plane";
-            state.requests.push_back(request::Load{});
+            return ask(state, request::Load{});
         }
         return Done{};
     }
-    state.requests.push_back(request::Load{file});
-    return Done{};
+    return ask(state, request::Load{file});
 }
 
 // Opens a file that a folder or the clipboard hands over. Detail that by its name belongs to the open model is shown
@@ -75,8 +79,7 @@ Status neighbour(State& state, int step)
 
 Status setFrame(Side& side, const std::string& name)
 {
-    if (const auto frame = parseFrameChoice(name); !frame)
-        return frame.error();
+    COTAN_CHECK(parseFrameChoice(name));
     side.frame = name;
     side.high = false;
     return Done{};
@@ -95,8 +98,7 @@ Status setSide(Side& side, const std::string& what, const std::string& value)
         side.normalMap = value;
     } else if (what == "convention") {
         if (!value.empty())
-            if (const auto known = parseConvention(value); !known)
-                return known.error();
+            COTAN_CHECK(parseConvention(value));
         side.convention = value;
     } else if (what == "high") {
         if (value != "on" && value != "off")
@@ -139,12 +141,10 @@ Status toggle(State& state, const std::string& name)
 
 Status setCompare(State& state, const std::string& mode)
 {
-    const std::map<std::string, Compare> modes = {
-        {"off", Compare::off}, {"divider", Compare::divider}, {"flip", Compare::flip}, {"angle", Compare::angle}};
-    const auto known = modes.find(mode);
-    if (known == modes.end())
-        return expected("compare", "off, divider, flip or angle", mode);
-    state.compare = known->second;
+    const auto known = cotan::valueOf(kCompares, mode);
+    if (!known)
+        return expected("compare", eitherOf(wordsOf(kCompares)), mode);
+    state.compare = *known;
     state.second = false;
     return Done{};
 }
@@ -162,8 +162,7 @@ Result<glm::ivec2> sizeFrom(Words words, const std::string& command)
 Status resize(State& state, const Words& words)
 {
     COTAN_TRY(size, sizeFrom(words, "size"));
-    state.requests.push_back(request::Resize{*size});
-    return Done{};
+    return ask(state, request::Resize{*size});
 }
 
 // Parses FILE [W H]. File names may contain spaces: only two numbers at the end are a size.
@@ -174,8 +173,7 @@ Status writePicture(State& state, const std::string& rest)
     Words tried = size;
     const bool sized = tried.number("picture") && tried.number("picture");
     COTAN_TRY(pixels, sized ? sizeFrom(size, "picture") : Result<glm::ivec2>(state.size));
-    state.requests.push_back(request::WriteImage{sized ? rest.substr(0, width) : rest, *pixels});
-    return Done{};
+    return ask(state, request::WriteImage{sized ? rest.substr(0, width) : rest, *pixels});
 }
 
 Status flip(State& state)
@@ -198,21 +196,18 @@ Status play(State& state)
     const GltfAnimation* animation = animationOf(state);
     if (state.playing && animation && state.picture.time >= animation->seconds)
         state.picture.time = 0;
-    state.requests.push_back(request::Pose{});
-    return Done{};
+    return ask(state, request::Pose{});
 }
 
 Status copy(State& state, const std::string& what)
 {
     if (what == "camera")
-        state.requests.push_back(request::Copy{formatCamera(state.camera)});
-    else if (what == "command")
-        state.requests.push_back(request::Copy{commandLine(state, "picture.png", state.size)});
-    else if (what == "result")
-        state.requests.push_back(request::Copy{fmt::format("{}", fmt::join(state.result.lines, "\n"))});
-    else
-        return expected("copy", "command, camera or result", what);
-    return Done{};
+        return ask(state, request::Copy{formatCamera(state.camera)});
+    if (what == "command")
+        return ask(state, request::Copy{commandLine(state, "picture.png", state.size)});
+    if (what == "result")
+        return ask(state, request::Copy{fmt::format("{}", fmt::join(state.result.lines, "\n"))});
+    return expected("copy", "command, camera or result", what);
 }
 
 Status show(State& state, const std::string& name)
@@ -251,10 +246,7 @@ Status performSet(State& state, Words& words)
 
 template<class Write> Status writeTo(State& state, const char* command, const std::string& file)
 {
-    if (file.empty())
-        return expected(command, "a file", "");
-    state.requests.push_back(Write{file});
-    return Done{};
+    return file.empty() ? expected(command, "a file", "") : ask(state, Write{file});
 }
 
 template<class Set> Status withNumber(Words& words, const char* command, const Set& set)
@@ -264,11 +256,7 @@ template<class Set> Status withNumber(Words& words, const char* command, const S
     return Done{};
 }
 
-template<class What> Status requested(State& state, Words&)
-{
-    state.requests.push_back(What{});
-    return Done{};
-}
+template<class What> Status requested(State& state, Words&) { return ask(state, What{}); }
 
 using Perform = Status (*)(State&, Words&);
 
@@ -280,26 +268,14 @@ const std::map<std::string, Perform>& commandTable()
         {"open", open},
         {"drop", [](State& s, Words& w) { return dropFile(s, w.rest); }},
         {"high", [](State& s, Words& w) { return openHigh(s, w.rest); }},
-        {"reload",
-         [](State& s, Words&) {
-             s.requests.push_back(request::Load{s.picture.model});
-             return Status(Done{});
-         }},
+        {"reload", [](State& s, Words&) { return ask(s, request::Load{s.picture.model}); }},
         {"next", [](State& s, Words&) { return neighbour(s, 1); }},
         {"previous", [](State& s, Words&) { return neighbour(s, -1); }},
         {"paste", requested<request::Paste>},
-        {"choose",
-         [](State& s, Words& w) {
-             s.requests.push_back(request::ChooseFile{w.rest.empty() ? "open" : w.rest});
-             return Status(Done{});
-         }},
+        {"choose", [](State& s, Words& w) { return ask(s, request::ChooseFile{w.rest.empty() ? "open" : w.rest}); }},
         {"find-hot-spots", requested<request::FindProblemAreas>},
         {"lose-surface", requested<request::LoseSurface>},
-        {"run",
-         [](State& s, Words& w) {
-             s.requests.push_back(request::RunTask{w.next()});
-             return Status(Done{});
-         }},
+        {"run", [](State& s, Words& w) { return ask(s, request::RunTask{w.next()}); }},
         {"stop", requested<request::StopTask>},
         {"quit", requested<request::Quit>},
         {"set", performSet},

@@ -34,19 +34,10 @@ constexpr std::array<KindWord, 12> kKinds = {{{EventKind::move, "move", Holds::p
                                               {EventKind::command, "do", Holds::word},
                                               {EventKind::wait, "wait", Holds::nothing}}};
 
-std::string nextWord(std::string_view& rest)
-{
-    const std::size_t start = std::min(rest.find_first_not_of(' '), rest.size());
-    const std::size_t end = std::min(rest.find(' ', start), rest.size());
-    std::string word(rest.substr(start, end - start));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    return word;
-}
-
 // Parses a line that is not a comment. Returns an error message, or "" if it is valid.
 std::string read(std::string_view line, double before, Event& event)
 {
-    std::string_view rest = line;
+    std::string rest(line);
     event.seconds = before;
     std::string word = nextWord(rest);
     if (double seconds = 0; parseNumber(std::string_view(word), seconds)) {
@@ -80,6 +71,15 @@ std::string read(std::string_view line, double before, Event& event)
 }
 
 } // namespace
+
+std::string nextWord(std::string& rest)
+{
+    const std::size_t start = std::min(rest.find_first_not_of(' '), rest.size());
+    const std::size_t end = std::min(rest.find(' ', start), rest.size());
+    std::string word = rest.substr(start, end - start);
+    rest.erase(0, end + 1);
+    return word;
+}
 
 std::string toText(const Event& event)
 {

@@ -39,6 +39,9 @@ std::string toText(const Event& event);
 // line before. Errors: ErrorKind::input with `name`, the line number, what was expected and what was found.
 Result<std::vector<Event>> eventsOf(const std::string& text, const std::string& name);
 
+// Takes the first word, and the spaces around it, from `rest`; empty if there is none.
+std::string nextWord(std::string& rest);
+
 // Modifiers precede the name: "ctrl+shift+left" holds "ctrl" and "shift".
 bool holds(const Event& event, const char* modifier);
 std::string bareWord(const Event& event); // "left" in that example

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/try.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/maps.hpp"
 #include "scene/geometry.hpp"
@@ -22,15 +23,11 @@ struct LastRead {
 
 namespace {
 
-Loaded readModel(const PictureOptions& options, std::uint64_t number, LastRead& kept)
+using ReadModel = Result<std::shared_ptr<const Model>>; // null: nothing to show
+
+ReadModel readModel(const PictureOptions& options, std::uint64_t number, LastRead& kept)
 {
-    Loaded loaded;
-    loaded.options = options;
-    auto opened = openMovingModel(options);
-    if (!opened) {
-        loaded.error = app::withOptionNames(opened.error());
-        return loaded;
-    }
+    COTAN_TRY(opened, openMovingModel(options));
     auto model = std::make_shared<Model>();
     model->scene = std::move(opened->scene);
     if (!options.model.empty())
@@ -41,8 +38,7 @@ Loaded readModel(const PictureOptions& options, std::uint64_t number, LastRead& 
     if (opened->animated)
         model->animations = opened->animated->animations();
     kept = {model, std::move(opened->animated)};
-    loaded.model = std::move(model);
-    return loaded;
+    return kept.model;
 }
 
 // Files of a detailed model, and the options that its limits come from.
@@ -51,9 +47,8 @@ struct HighFiles {
     std::vector<std::string> files;
 };
 
-Loaded readHighModel(const HighFiles& wanted, std::uint64_t number)
+ReadModel readHighModel(const HighFiles& wanted, std::uint64_t number)
 {
-    Loaded loaded;
     auto model = std::make_shared<Model>();
     for (const std::string& file : wanted.files) {
         PictureOptions o;
@@ -61,45 +56,42 @@ Loaded readHighModel(const HighFiles& wanted, std::uint64_t number)
         o.up = wanted.options.up;
         o.memory = wanted.options.memory;
         o.maxDegrees = wanted.options.maxDegrees;
-        auto scene = openModel(o);
-        if (!scene) {
-            loaded.error = app::withOptionNames(scene.error());
-            return loaded;
-        }
+        COTAN_TRY(scene, openModel(o));
         chooseFramesOfMeshes(o, *scene);
         appendScene(model->scene, std::move(*scene));
     }
     model->box = bounds(model->scene);
     model->number = number;
-    loaded.model = std::move(model);
-    return loaded;
+    return std::shared_ptr<const Model>(std::move(model));
 }
 
-Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& kept)
+ReadModel poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& kept)
 {
-    Loaded loaded;
-    loaded.posed = true;
-    loaded.options = kept.model->read; // everything except the pose is as it was read
-    loaded.options.animation = wanted.animation;
-    loaded.options.time = wanted.animation.empty() ? 0 : wanted.time;
-    if (!kept.animated) {
-        if (!wanted.animation.empty())
-            loaded.error = usageError("animation: expected a glTF model with animations; found none");
-        return loaded;
-    }
-    auto scene = poseModel(*kept.animated, loaded.options, kept.model->scene);
-    if (!scene) {
-        loaded.error = app::withOptionNames(scene.error());
-        return loaded;
-    }
+    if (!kept.animated)
+        return wanted.animation.empty() ? ReadModel(nullptr)
+                                        : usageError("animation: expected a glTF model with animations; found none");
+    PictureOptions options = kept.model->read; // everything except the pose is as it was read
+    options.animation = wanted.animation;
+    options.time = wanted.animation.empty() ? 0 : wanted.time;
+    COTAN_TRY(scene, poseModel(*kept.animated, options, kept.model->scene));
     auto model = std::make_shared<Model>();
     model->scene = std::move(*scene);
     model->box = bounds(model->scene);
-    model->read = loaded.options;
+    model->read = std::move(options);
     model->animations = kept.model->animations;
     model->number = number;
     kept.model = model;
-    loaded.model = std::move(model);
+    return kept.model;
+}
+
+Loaded loadedOf(ReadModel read, bool posed = false)
+{
+    Loaded loaded;
+    loaded.posed = posed;
+    if (read)
+        loaded.model = *std::move(read);
+    else
+        loaded.error = app::withOptionNames(read.error());
     return loaded;
 }
 
@@ -174,18 +166,18 @@ void take(State& state, const Loaded& loaded)
     ++state.loads;
     if (state.problem == std::exchange(state.loadProblem, {})) // the file is valid again
         state.problem.clear();
-    const bool other =
-        !state.model || loaded.options.model != state.picture.model || loaded.options.shape != state.picture.shape;
+    const bool other = !state.model || loaded.model->read.model != state.picture.model
+        || loaded.model->read.shape != state.picture.shape;
     if (other && state.model) {
         state.playing = false;
         closeHigh(state); // it is the detail of the previous model
     }
-    state.picture.model = loaded.options.model;
-    state.picture.shape = loaded.options.shape;
-    state.picture.variant = loaded.options.variant;
-    state.picture.animation = loaded.options.animation;
+    state.picture.model = loaded.model->read.model;
+    state.picture.shape = loaded.model->read.shape;
+    state.picture.variant = loaded.model->read.variant;
+    state.picture.animation = loaded.model->read.animation;
     if (!state.playing)
-        state.picture.time = loaded.options.time;
+        state.picture.time = loaded.model->read.time;
     state.model = loaded.model;
     forgetProblemAreas(state);
     state.statisticsOf.clear();
@@ -197,8 +189,8 @@ void take(State& state, const Loaded& loaded)
         }
         resetCamera(state);
     }
-    if (other && !loaded.options.model.empty()) {
-        const std::string file = std::filesystem::absolute(loaded.options.model).lexically_normal().string();
+    if (other && !loaded.model->read.model.empty()) {
+        const std::string file = std::filesystem::absolute(loaded.model->read.model).lexically_normal().string();
         std::erase(state.recent, file);
         state.recent.insert(state.recent.begin(), file);
         state.recent.resize(std::min(state.recent.size(), kMaxRecent));
@@ -227,10 +219,10 @@ struct Loader::Work {
             readingHigh = toHigh.has_value();
             lock.unlock();
             app::Stopwatch watch;
-            Loaded loaded = toRead ? guarded([&] { return readModel(*toRead, ++number, kept); })
-                : toHigh           ? guarded([&] { return readHighModel(*toHigh, ++number); })
-                : toPose           ? guarded([&] { return poseKept(*toPose, ++number, kept); })
-                                   : guarded([&] { return lookAt(*toLook); });
+            Loaded loaded = toRead ? guarded([&] { return loadedOf(readModel(*toRead, ++number, kept)); })
+                : toHigh           ? guarded([&] { return loadedOf(readHighModel(*toHigh, ++number)); })
+                : toPose ? guarded([&] { return loadedOf(poseKept(*toPose, ++number, kept), /*posed*/ true); })
+                         : guarded([&] { return lookAt(*toLook); });
             if (toHigh) // also after an exception
                 loaded.high = toHigh->files;
             loaded.seconds = watch.lap();
@@ -311,41 +303,33 @@ Loader::~Loader()
 
 void Loader::read(const PictureOptions& options)
 {
-    {
-        const std::lock_guard lock(work_->mutex);
-        work_->read = options;
-        work_->pose.reset();
-        work_->look = nullptr;
-    }
+    const std::lock_guard lock(work_->mutex);
+    work_->read = options;
+    work_->pose.reset();
+    work_->look = nullptr;
     work_->changed.notify_all();
 }
 
 void Loader::readHigh(const PictureOptions& options, const std::vector<std::string>& files)
 {
-    {
-        const std::lock_guard lock(work_->mutex);
-        work_->high = {options, files};
-    }
+    const std::lock_guard lock(work_->mutex);
+    work_->high = {options, files};
     work_->changed.notify_all();
 }
 
 void Loader::pose(const PictureOptions& options)
 {
-    {
-        const std::lock_guard lock(work_->mutex);
-        if (work_->read || work_->reading)
-            return;
-        work_->pose = options;
-    }
+    const std::lock_guard lock(work_->mutex);
+    if (work_->read || work_->reading)
+        return;
+    work_->pose = options;
     work_->changed.notify_all();
 }
 
 void Loader::findProblemAreas(std::shared_ptr<const Model> model)
 {
-    {
-        const std::lock_guard lock(work_->mutex);
-        work_->look = std::move(model);
-    }
+    const std::lock_guard lock(work_->mutex);
+    work_->look = std::move(model);
     work_->changed.notify_all();
 }
 

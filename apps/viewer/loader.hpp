@@ -12,7 +12,6 @@ namespace cotan::viewer {
 struct Loaded {
     std::vector<std::string> high;      // files, if this is the detailed model
     bool posed = false;                 // the same model at another time of its animation
-    PictureOptions options;             // options that the model was read with
     std::shared_ptr<const Model> model; // null if there is an error or another kind of result
     std::optional<std::vector<ProblemArea>> problemAreas;
     std::vector<std::string> faults; // of maps and edges; after the model, because checking is slower than drawing

@@ -63,19 +63,16 @@ struct RenderThread::Work {
 
     template<class Make> static Drawn guarded(const Make& make, std::uint64_t number)
     {
+        Drawn failed;
+        failed.number = number;
         try {
             return make();
         } catch (const std::bad_alloc&) {
-            Drawn failed;
-            failed.number = number;
             failed.problem = "not enough memory";
-            return failed;
         } catch (const std::exception& e) {
-            Drawn failed;
-            failed.number = number;
             failed.problem = e.what();
-            return failed;
         }
+        return failed;
     }
 
     void publish(Drawn drawn, bool more)
@@ -122,10 +119,8 @@ void RenderThread::drawOn(std::shared_ptr<Device> device)
 
 void RenderThread::ask(Order order)
 {
-    {
-        const std::lock_guard lock(work_->mutex);
-        work_->next = std::move(order);
-    }
+    const std::lock_guard lock(work_->mutex);
+    work_->next = std::move(order);
     work_->changed.notify_all();
 }
 

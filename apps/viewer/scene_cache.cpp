@@ -240,9 +240,7 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
     s.scene = &s.model->scene;
     if (!plain(o, frame, s.model->scene) || !inspection.empty()) {
         s.own = s.model->scene;
-        if (const auto prepared = prepareScene(o, inspection.empty() ? "error" : inspection, {*choice}, s.own);
-            !prepared)
-            return prepared.error();
+        COTAN_CHECK(prepareScene(o, inspection.empty() ? "error" : inspection, {*choice}, s.own));
         s.scene = &s.own;
     }
     const bool same = before && sameImages(before->images, s.scene->images);

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "camera.hpp"
-#include "core/named_values.hpp"
 #include "core/parse_number.hpp"
 #include "cotan/render.hpp"
 #include "files.hpp"
@@ -31,14 +30,6 @@ std::string quoted(const std::string& word)
     for (const char c : word)
         text += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return text + "'";
-}
-
-std::string compareName(Compare compare)
-{
-    return compare == Compare::divider ? "divider"
-        : compare == Compare::flip     ? "flip"
-        : compare == Compare::angle    ? "angle"
-                                       : "off";
 }
 
 // Whether only the window shows this image: it has both models, detail of several files, or the light of one model on
@@ -173,7 +164,7 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
     if (views && highUpOf(state) != state.picture.up)
         add("high-up", wordOf(kUps, highUpOf(state)));
     if (views && state.compare != Compare::divider)
-        add("do", state.compare == Compare::flip ? "flip" : "compare " + compareName(state.compare));
+        add("do", state.compare == Compare::flip ? "flip" : "compare " + wordOf(kCompares, state.compare));
     if (compares)
         add("frames", state.a.frame + "," + state.b.frame);
     else if (side.frame != kAutoFrame)
@@ -216,7 +207,7 @@ std::string reportOf(const State& state)
                         side.convention.empty() ? "-" : side.convention));
     }
     add("high", state.highModel ? fmt::format("{} triangles", trianglesDrawn(state.highModel->scene)) : "none");
-    add("compare", compareName(state.compare) + (state.second ? " second" : ""));
+    add("compare", wordOf(kCompares, state.compare) + (state.second ? " second" : ""));
     add("divider", fmt::format("{:.3f}", state.divider));
     add("camera moved", state.cameraMoved ? "yes" : "no");
     add("eye", textOf(state.camera.eye));

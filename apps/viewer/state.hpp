@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/named_values.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/scene.hpp"
 #include "inspect/angles.hpp"
@@ -46,6 +47,8 @@ enum class Compare {
     flip,    // shows one of the two
     angle,   // degrees between their normals, in false colours
 };
+inline constexpr Named<Compare> kCompares[] = {
+    {"off", Compare::off}, {"divider", Compare::divider}, {"flip", Compare::flip}, {"angle", Compare::angle}};
 
 // Actions that the session performs, because they need more than a change of the state.
 namespace request {

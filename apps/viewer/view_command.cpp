@@ -60,8 +60,7 @@ Status run(const ViewCommandOptions& o)
     state.show = o.picture.show;
     state.highUp = o.highUp;
     for (const auto& [option, frame] : {std::pair("--frame", state.a.frame), {"--second", state.b.frame}})
-        if (const auto known = parseFrameChoice(frame, option); !known)
-            return known.error();
+        COTAN_CHECK(parseFrameChoice(frame, option));
     COTAN_CHECK(beginOutputs(o, {{"--record", o.record}}, /*again*/ true));
     COTAN_CHECK(noteInputs(o.picture));
     for (const std::string& file : o.high)

@@ -53,8 +53,7 @@ std::string crossing(const FlatTile& tile, const Bounds& high)
         const float before = -first[k], behind = last[k] - 1;
         if ((before > kCrosses && std::abs(behind) < kFlat) || (behind > kCrosses && std::abs(before) < kFlat))
             return "options.wrap: the low mesh is one tile, and the high mesh crosses one of its borders only: with "
-                   "it, "
-                   "what leaves there comes in at the opposite border";
+                   "it, what leaves there comes in at the opposite border";
     }
     return {};
 }

@@ -167,9 +167,8 @@ PictureOption view()
         text("view", HelpGroup::main, "NAME", &Options::show,
              "what to draw: shaded; normal, tangent, bitangent, uv, depth; error (degrees from the frame that the maps "
              "are for); clay, gloss (the relief alone); checker, density, stretch, shear, mirrored (uv and texels), w "
-             "(of stored tangents), facing; or one map "
-             "by itself: base-color, alpha, normal-map, normal-map-red, normal-map-green, normal-map-blue, roughness, "
-             "metallic, occlusion, emissive, mask (--mask)");
+             "(of stored tangents), facing; or one map by itself: base-color, alpha, normal-map, normal-map-red, "
+             "normal-map-green, normal-map-blue, roughness, metallic, occlusion, emissive, mask (--mask)");
     option.check = wordOf(showNames());
     option.closed = true;
     return offering(std::move(option), showNames());
@@ -204,8 +203,7 @@ std::vector<PictureOption> makeTable()
         file("occlusion", map(&OwnMaps::occlusion), "image that replaces the model's ambient occlusion (red)"),
         file("height-map", map(&OwnMaps::height),
              "image of heights (red): white is the surface, black lies --height-depth below it. Maps are drawn where "
-             "the "
-             "line of sight meets the heights, which shadow each other"),
+             "the line of sight meets the heights, which shadow each other"),
         file("mask", map(&OwnMaps::mask), "image that bake --mask wrote, for --view mask"),
         number("height-depth", input, "D", map(&OwnMaps::heightDepth), kHeightDepths,
                "how far black lies below white, or the lowest of a file of floats below its highest, in the model's "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/try.hpp"
 #include "entry.hpp"
 #include "languages.hpp"
 
@@ -144,9 +145,7 @@ std::string fusedFrameNames(std::string_view beforeLast)
 
 Result<ShaderText> makeShaderText(const Choice& choice)
 {
-    const Result<Form> form = formOf(choice);
-    if (!form)
-        return form.error();
+    COTAN_TRY(form, formOf(choice));
     Module module = parseAll(choice.language, entryText(choice, *form));
     bindConvention(module, choice.convention);
     const Module needed = neededBy(module, rootsOf(module, choice));

@@ -22,7 +22,7 @@ TESTS = {
     "bindings/js": "web",
     "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json python:options python:package python:dask python:header",
     "shaders/cotan": "core_test tangents_test reference_test frame_table_test shader_text_test",
-    "apps/lab": "figures_test lighting_test accuracy_test cost_test report_test output_bytes:lab",
+    "apps/lab": "figures_test accuracy_test cost_test report_test output_bytes:lab",
     "src/bake": "bake_test lint_test judgement_test convert_test auto_frame_test bake_command_test tangents_gltf_test python:bake",
     "src/c": "c_buffers_test c_facts c_api python:geometry python:maps python:bake python:models python:render python:options",
     "src/core": "core_test tangents_test loops_test map_test geometry_test bake_test",
@@ -44,7 +44,7 @@ BAR = 0.85
 # Tests that reach many folders: tried after those above, the fastest first.
 OTHERS = """defaults_test accuracy_test geometry_test assimp_test obj_test bake_test batch_test c_buffers_test cli_test convert_test core_test cost_test draw_test
 environment_test figures_test files_test frame_table_test gltf_bad_test gltf_edit_test gltf_models_test gltf_test help_test image_test
-judgement_command_test judgement_test auto_frame_test lighting_test lint_test map_command_test map_test models_test reference_test
+judgement_command_test judgement_test auto_frame_test lint_test map_command_test map_test models_test reference_test
 render_test report_test sandbox_test shader_text_test shapes_test tangents_command_test tangents_gltf_test tangents_test viewer_test
 words_test bake_command_test batch_command_test c_facts c_api command_line output_bytes:maps output_bytes:meshes output_bytes:pictures output_bytes:lab
 output_bytes:shader_text json_fields python:arrays python:bake python:geometry

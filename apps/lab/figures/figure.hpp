@@ -45,11 +45,7 @@ struct Figure {
 Figure makeTeapotFigure(FigureRenderer& studio);
 Figure makePatchFigure(FigureRenderer& studio);
 Figure makePlaneFigure(FigureRenderer& studio);
-Figure makeTutorialFigure(FigureRenderer& studio);
-Figure makeNormalMatrixFigure(FigureRenderer& studio);
 Figure makeMirroredFigure(FigureRenderer& studio);
-Figure makeTargetsFigure(FigureRenderer& studio);
-Figure makeDecodeFigure(FigureRenderer& studio);
 Figure makeFacetingFigure(FigureRenderer& studio);
 Figure makeSparkleFigure(FigureRenderer& studio);
 Figure makeFlickerFigure(FigureRenderer& studio);

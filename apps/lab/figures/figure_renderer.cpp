@@ -27,9 +27,9 @@ Image FigureRenderer::draw(const View& view)
     return orPlaceholder(error_ ? Result<Image>(*error_) : renderer_.draw(view), view);
 }
 
-Image FigureRenderer::drawReference(const View& view, const reference::LightSpace& space)
+Image FigureRenderer::drawReference(const View& view)
 {
-    return orPlaceholder(error_ ? Result<Image>(*error_) : reference::renderIn(space, *scene_, view, threads_), view);
+    return orPlaceholder(error_ ? Result<Image>(*error_) : renderReference(*scene_, view, threads_), view);
 }
 
 Image FigureRenderer::shaded(View view, Frame frame)

@@ -6,7 +6,6 @@
 #include "cotan/frame.hpp"
 #include "cotan/render.hpp"
 #include "cotan/view.hpp"
-#include "render/reference/pixel.hpp"
 
 namespace cotan::figures {
 
@@ -31,7 +30,7 @@ public:
     Image normals(const View& view, Frame frame) { return vectors(view, frame, Output::normal); }
 
     // Draws with the reference renderer, whatever the renderer is.
-    Image drawReference(const View& view, const reference::LightSpace& space = {});
+    Image drawReference(const View& view);
 
     // The first error, if any.
     const std::optional<Error>& error() const { return error_; }

@@ -24,22 +24,10 @@ struct FigureInfo {
 };
 
 constexpr FigureInfo kFigures[] = {
-    {"2.6.3", makeTeapotFigure},
-    {"2.6.4", makePatchFigure},
-    {"2.6.5", makePlaneFigure},
-    {"tutorial", makeTutorialFigure},
-    {"normal-matrices", makeNormalMatrixFigure},
-    {"mirrored", makeMirroredFigure},
-    {"targets", makeTargetsFigure},
-    {"decode", makeDecodeFigure},
-    {"faceting", makeFacetingFigure},
-    {"sparkle", makeSparkleFigure},
-    {"flicker", makeFlickerFigure},
-    {"parallax", makeParallaxFigure},
-    {"decal", makeDecalFigure},
-    {"triplanar", makeTriplanarFigure},
-    {"grooves", makeGroovesFigure},
-    {"isolines", makeIsolinesFigure},
+    {"2.6.3", makeTeapotFigure},        {"2.6.4", makePatchFigure},       {"2.6.5", makePlaneFigure},
+    {"mirrored", makeMirroredFigure},   {"faceting", makeFacetingFigure}, {"sparkle", makeSparkleFigure},
+    {"flicker", makeFlickerFigure},     {"parallax", makeParallaxFigure}, {"decal", makeDecalFigure},
+    {"triplanar", makeTriplanarFigure}, {"grooves", makeGroovesFigure},   {"isolines", makeIsolinesFigure},
 };
 
 // Returns the figures with these names in the order of the table; all of them if `only` is empty.
@@ -109,8 +97,7 @@ Page emptyPage(const std::string& device)
     page.title = "Normal mapping without precomputed tangents: the figures";
     page.text = {
         "Figures 2.6.3 to 2.6.5 of C. Schueler's chapter of 2006 and others that its follow-up of 2013 and common "
-        "tutorials suggest, redrawn and measured: every image is captioned with the error of its normals, in "
-        "degrees. "
+        "tutorials suggest, redrawn and measured: every image is captioned with the error of its normals, in degrees. "
         "Drag a slider to compare."};
     page.footer = fmt::format("Drawn on {}.", device);
     return page;

@@ -380,8 +380,7 @@ Figure makeFlickerFigure(FigureRenderer& studio)
         "Metal spheres of roughness 0.15 under one lamp, 58 pixels wide and enlarged, with one sample a pixel and the "
         "roughness of each form of specular antialiasing. \"Curvature\" takes differences of the interpolated normals, "
         "\"shaded normals\" of those with the map, as a G-buffer has them. The others are variances from the map's "
-        "mips: "
-        "from the length of the filtered texel, or stored in a channel or in a roughness map.",
+        "mips: from the length of the filtered texel, or stored in a channel or in a roughness map.",
         "Errors are root mean squares of displayed values against 256 samples. Flicker is the root mean square of the "
         "change of the error between two images, while the sphere turns by 0.4 pixels."};
     for (const Ball& ball : kBalls)

@@ -73,8 +73,7 @@ Figure makeIsolinesFigure(FigureRenderer& studio)
     figure.text = {
         "A patch with sheared texture coordinates, with lines of constant u (red) and constant v (blue). The tangents "
         "dP/du (red arrow) and dP/dv (blue arrow) run along the lines of the other coordinate. The gradients of u and "
-        "v "
-        "are perpendicular to their own lines: they are normals of the lines, and longer where lines are closer. A "
+        "v are perpendicular to their own lines: they are normals of the lines, and longer where lines are closer. A "
         "bump that depends on u only is a ridge along the red lines, so it tilts the normal along the gradient of u, "
         "and not along dP/du. Where lines cross at right angles the two are parallel, and the difference is hidden."};
     const Arrow tangents[] = {{dpdu * 1.0, kOfU}, {dpdv * 1.0, kOfV}};

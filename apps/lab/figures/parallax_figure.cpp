@@ -136,8 +136,7 @@ Figure makeParallaxFigure(FigureRenderer& studio)
         "mirrored at the middle. With the gradients of u and v the search through the relief follows the line of "
         "sight. The usual form takes the view vector into tangent space by unit tangents and a perpendicular "
         "bitangent: its domes are drawn out along the shear. Both make the same number of readings. The truth is the "
-        "line of sight against "
-        "the displaced surface. Errors are distances in a map of 512 texels per unit of u."};
+        "line of sight against the displaced surface. Errors are distances in a map of 512 texels per unit of u."};
     const struct {
         By by;
         const char *file, *label;

@@ -120,14 +120,12 @@ Figure makePlaneFigure(FigureRenderer& studio)
     Figure figure;
     figure.title = "2.6.5: foreshortening, not perspective";
     figure.text = {
-        "The last optimisation of the chapter assumes that the matrix of the edges is orthogonal and omits the "
-        "inverse transpose. On a plane in perspective the two agree in part of the foreground and part towards the "
-        "horizon: highlights slide off the dots and their relief flattens. (Far away the angles shrink again, because "
-        "there "
-        "the filtered map is flat.)",
+        "The last optimisation of the chapter assumes that the matrix of the edges is orthogonal and omits the inverse "
+        "transpose. On a plane in perspective the two agree in part of the foreground and part towards the horizon: "
+        "highlights slide off the dots and their relief flattens. (Far away the angles shrink again, because there the "
+        "filtered map is flat.)",
         "The chapter attributes this to perspective. The second plane is drawn without: an orthographic camera, the "
-        "plane "
-        "tilted by 60 degrees. The error is the same on every dot, and as large. What breaks the shortcut is "
+        "plane tilted by 60 degrees. The error is the same on every dot, and as large. What breaks the shortcut is "
         "foreshortening; it is exact only where the surface faces the camera."};
     figure.measured =
         "Angles between paper-transpose, which is right here, and paper-orthogonal. The texture is rotated by "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <glm/geometric.hpp>
 
@@ -111,30 +110,6 @@ void pasteInset(Image& image, const Image& inset)
             for (int c = 0; c < 4; ++c)
                 to[c] = inside ? inset.bytes8()[4 * (std::ptrdiff_t(y) * inset.width + x) + c] : 255;
         }
-}
-
-Image differenceOf(const Image& a, const Image& b, int factor)
-{
-    Image out = makeImage(a.width, a.height, PixelType::unorm8, "difference");
-    for (std::size_t i = 0; i < out.data.size(); ++i)
-        out.bytes8()[i] =
-            i % 4 == 3 ? 255 : std::uint8_t(std::min(std::abs(a.bytes8()[i] - b.bytes8()[i]) * factor, 255));
-    return out;
-}
-
-Levels levelsBetween(const Image& a, const Image& b)
-{
-    Levels levels;
-    double sum = 0;
-    for (std::size_t i = 0; i < a.pixelCount(); ++i) {
-        int largest = 0;
-        for (std::size_t c = 0; c < 3; ++c)
-            largest = std::max(largest, std::abs(a.bytes8()[4 * i + c] - b.bytes8()[4 * i + c]));
-        sum += largest;
-        levels.maximum = std::max(levels.maximum, largest);
-    }
-    levels.mean = sum / double(a.pixelCount());
-    return levels;
 }
 
 namespace {

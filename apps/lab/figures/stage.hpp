@@ -35,16 +35,6 @@ View wideView(const FigureRenderer& studio, const Camera& camera);
 // Draws `inset` with a frame around it into the lower right corner of `image`. Both are unorm8.
 void pasteInset(Image& image, const Image& inset);
 
-// |a - b| * factor per channel, opaque. Both images are unorm8 and have the same size.
-Image differenceOf(const Image& a, const Image& b, int factor);
-
-// Differences in levels of 255, each the largest of the channels: the mean over all pixels, and the maximum.
-struct Levels {
-    double mean = 0;
-    int maximum = 0;
-};
-Levels levelsBetween(const Image& a, const Image& b);
-
 // All images in a grid with `columns` columns on grey, each shrunk to fit a cell.
 Image contactSheet(const std::vector<const Image*>& images, int columns, int cellWidth, int cellHeight);
 

@@ -88,11 +88,10 @@ Figure makeTeapotFigure(FigureRenderer& studio)
     Figure figure;
     figure.title = "2.6.3: the teapot, vertex frames against per-pixel frames";
     figure.text = {
-        "The same teapot, map and light. (A) takes orthonormal frames from tangents stored at the vertices, (B) "
-        "makes the frame in the pixel. On the belly the texture is nearly square and the two look alike. At the "
-        "nozzle, in the inset, it is squashed and sheared: in (A) the spots are lit from a wrong side; in "
-        "(B) "
-        "every spot is lit from the side of the light.",
+        "The same teapot, map and light. (A) takes orthonormal frames from tangents stored at the vertices, (B) makes "
+        "the frame in the pixel. On the belly the texture is nearly square and the two look alike. At the nozzle, in "
+        "the inset, it is squashed and sheared: in (A) the spots are lit from a wrong side; in (B) every spot is lit "
+        "from the side of the light.",
         fmt::format("Both are drawn with {} segments per patch. The ground truth is the normal on the same teapot with "
                     "{} segments per patch and the gradients of each triangle (frame exact).",
                     kPatchSegments, kTruthSegments)};

@@ -4,7 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "cotan/packed_only.hpp"
 #include "truth/patch.hpp"
 
 namespace cotan {

@@ -2,19 +2,14 @@
 #include "rows.hpp"
 #include "tables.hpp"
 
-#include "cotan/tangents.hpp"
+#include "truth/tessellation.hpp"
 
 namespace cotan {
 
 namespace {
 
-// Results of the per-vertex frame generators on a patch, which are the same at every vertex.
-struct VertexFrames {
-    std::array<glm::dvec4, kFrameCount> tangents; // for the frames that read tangents, as tangentAlongV
-    glm::dvec3 cotangentU, cotangentV;
-};
-
-VertexFrames vertexFrames(const Layout& l)
+// The results of the per-vertex frame generators on a patch, which are the same at every point.
+Interpolated vertexFrames(const Layout& l)
 {
     std::vector<glm::vec3> positions, normals(4, glm::vec3(0, 0, 1));
     std::vector<glm::vec2> texcoords;
@@ -27,27 +22,14 @@ VertexFrames vertexFrames(const Layout& l)
                                                                          : std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2};
     const MeshView mesh{positions, normals, texcoords, indices};
     const Cotangents cotangents = smoothCotangents(mesh);
-    VertexFrames made{{}, glm::dvec3(cotangents.u.front()), glm::dvec3(cotangents.v.front())};
+    Interpolated made{};
+    made.n = {0, 0, 1};
+    made.cotangentU = glm::dvec3(cotangents.u.front());
+    made.cotangentV = glm::dvec3(cotangents.v.front());
     for (const FrameInfo& f : frames())
         if (readsTangents(f.frame))
             made.tangents[std::size_t(f.frame)] = glm::dvec4(tangentAlongV(generateTangents(f.frame, mesh).front()));
     return made;
-}
-
-glm::dvec3 shadeVertexFrame(bool single, Frame frame, const VertexFrames& v, glm::dvec3 m)
-{
-    const glm::dvec3 n(0, 0, 1);
-    const glm::dvec4 t = v.tangents[std::size_t(frame)];
-    if (single) {
-        const glm::vec3 nf(n);
-        const auto f = readsCotangents(frame)
-            ? evaluateCotangents(frame, nf, glm::vec3(v.cotangentU), glm::vec3(v.cotangentV))
-            : evaluateTangents(frame, nf, glm::vec3(t), float(t.w));
-        return glm::dvec3(f32::cotan_apply(f, glm::vec3(m)));
-    }
-    const auto f = readsCotangents(frame) ? evaluateCotangents(frame, n, v.cotangentU, v.cotangentV)
-                                          : evaluateTangents(frame, n, glm::dvec3(t), t.w);
-    return f64::cotan_apply(f, m);
 }
 
 // The rows of one layout and view, to which samples are added.
@@ -64,7 +46,7 @@ struct PatchRows {
     }
 
     // Skips pixels whose true normal is tilted by less than `minTilt` degrees.
-    void add(const AffinePatch& patch, const VertexFrames& vertices, const Differences<double>& d, glm::dvec3 m,
+    void add(const AffinePatch& patch, const Interpolated& vertices, const Differences<double>& d, glm::dvec3 m,
              double minTilt)
     {
         const glm::dvec3 truths[] = {truthS(patch, m), truthE(patch, m)};
@@ -72,7 +54,7 @@ struct PatchRows {
             if (degreesBetween(truths[k], patch.normal) < minTilt)
                 continue;
             for (FrameRows::Row& row : (k == 0 ? s : e).rows) {
-                const glm::dvec3 n = readsVertices(row.frame) ? shadeVertexFrame(row.single, row.frame, vertices, m)
+                const glm::dvec3 n = readsVertices(row.frame) ? shade(row.frame, row.single, vertices, d, m)
                                                               : shadeAs(row.single, row.frame, patch.normal, d, m);
                 row.angles.add(degreesBetween(n, truths[k]));
             }
@@ -84,7 +66,7 @@ struct PatchRows {
 void measureDomes(PatchRows& rows, const Layout& layout, glm::dvec3 from, glm::dvec3 up)
 {
     const AffinePatch patch = patchOf(layout);
-    const VertexFrames vertices = vertexFrames(layout);
+    const Interpolated vertices = vertexFrames(layout);
     const PixelCamera camera = PixelCamera::lookAt(glm::dvec3(1, 1, 0) + from * 5.0, {1, 1, 0}, up, 200, true);
     for (int j = 0; j < 128; ++j)
         for (int i = 0; i < 128; ++i) {
@@ -100,7 +82,7 @@ void measureAllViews(PatchRows& rows, const Layout& layout)
 {
     Random random(4);
     const AffinePatch patch = patchOf(layout);
-    const VertexFrames vertices = vertexFrames(layout);
+    const Interpolated vertices = vertexFrames(layout);
     for (double tilt = 0; tilt <= 80; tilt += 5)
         for (int i = 0; i < 200; ++i) {
             const PixelCamera camera = viewAt(random, tilt, i & 1);

@@ -5,8 +5,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "cotan/packed_only.hpp"
-
 namespace cotan {
 
 // A value f(s,t) and its derivatives.

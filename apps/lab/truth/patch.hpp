@@ -4,7 +4,6 @@
 #include <array>
 #include <numbers>
 
-#include "cotan/packed_only.hpp"
 #include "truth/quad.hpp"
 #include "truth/random.hpp"
 

@@ -2,7 +2,6 @@
 // precision that remains in its differences.
 #pragma once
 
-#include "cotan/packed_only.hpp"
 #include "truth/patch.hpp"
 
 namespace cotan {

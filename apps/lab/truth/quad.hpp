@@ -7,7 +7,6 @@
 #include <glm/vec3.hpp>
 
 #include "cotan/frame.hpp"
-#include "cotan/packed_only.hpp"
 
 namespace cotan {
 

@@ -7,8 +7,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "cotan/packed_only.hpp"
-
 namespace cotan {
 
 class Random {

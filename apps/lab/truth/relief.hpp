@@ -3,8 +3,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "cotan/packed_only.hpp"
-
 namespace cotan {
 
 // Height and slopes in uv units; hu is the change of height per unit of u.

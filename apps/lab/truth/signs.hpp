@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "cotan/packed_only.hpp"
 #include "truth/patch.hpp"
 
 namespace cotan {

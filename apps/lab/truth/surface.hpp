@@ -9,7 +9,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "cotan/packed_only.hpp"
 #include "truth/jet.hpp"
 #include "truth/patch.hpp"
 #include "truth/relief.hpp"

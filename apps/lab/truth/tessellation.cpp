@@ -28,22 +28,13 @@ AffinePatch planeOf(glm::dvec3 origin, const Differences<double>& edges, glm::dv
     return p;
 }
 
-glm::dvec3 shadeFromVertices(Frame frame, const Interpolated& x, glm::dvec3 m)
+template<class Real> glm::dvec3 shadeFromVertices(Frame frame, const Interpolated& x, glm::dvec3 m)
 {
+    using Vec3 = packed::vec<3, Real>;
     const glm::dvec4 t = x.tangents[std::size_t(frame)];
-    const auto f = readsCotangents(frame) ? evaluateCotangents(frame, x.n, x.cotangentU, x.cotangentV)
-                                          : evaluateTangents(frame, x.n, glm::dvec3(t), t.w);
-    return f64::cotan_apply(f, m);
-}
-
-glm::dvec3 shadeFromVerticesFloat(Frame frame, const Interpolated& x, glm::dvec3 m)
-{
-    const glm::vec3 n(x.n);
-    const glm::dvec4 t = x.tangents[std::size_t(frame)];
-    const auto f = readsCotangents(frame)
-        ? evaluateCotangents(frame, n, glm::vec3(x.cotangentU), glm::vec3(x.cotangentV))
-        : evaluateTangents(frame, n, glm::vec3(t), float(t.w));
-    return glm::dvec3(f32::cotan_apply(f, glm::vec3(m)));
+    const auto f = readsCotangents(frame) ? evaluateCotangents(frame, Vec3(x.n), Vec3(x.cotangentU), Vec3(x.cotangentV))
+                                          : evaluateTangents(frame, Vec3(x.n), Vec3(t), Real(t.w));
+    return glm::dvec3(cotan_apply(f, Vec3(m)));
 }
 
 } // namespace
@@ -140,7 +131,7 @@ Interpolated interpolate(const Tessellation& mesh, const TrianglePoint& at)
 glm::dvec3 shade(Frame frame, bool single, const Interpolated& x, const Differences<double>& screen, glm::dvec3 m)
 {
     if (readsVertices(frame))
-        return single ? shadeFromVerticesFloat(frame, x, m) : shadeFromVertices(frame, x, m);
+        return single ? shadeFromVertices<float>(frame, x, m) : shadeFromVertices<double>(frame, x, m);
     const Differences<double>& d = info(frame).source == FrameSource::triangle ? x.edges : screen;
     const glm::dvec3 n = glm::normalize(x.n);
     return single ? shadeFloat(frame, n, d, m) : shade(frame, n, d, m);

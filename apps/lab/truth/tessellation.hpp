@@ -7,7 +7,6 @@
 
 #include <glm/vec4.hpp>
 
-#include "cotan/packed_only.hpp"
 #include "cotan/tangents.hpp"
 #include "truth/quad.hpp"
 #include "truth/random.hpp"

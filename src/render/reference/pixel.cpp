@@ -121,7 +121,7 @@ std::pair<glm::vec3, glm::vec3> shadedColor(const PixelInputs& all, const Surfac
         surface.roughness = f32::cotan_roughness_of_variance(surface.roughness, normal.variance);
     }
     const Layers layers = layersOf(all, in, lane, normal);
-    return {radianceOf(all, in, lane, normal, surface, layers, point), transmittanceOf(surface, layers)};
+    return {radianceOf(all, in, lane, surface, layers, point), transmittanceOf(surface, layers)};
 }
 
 glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, int lane)

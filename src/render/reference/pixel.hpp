@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -78,8 +77,7 @@ struct SurfaceNormal {
     glm::vec3 dndx{0}, dndy{0}; // differences of `interpolated` to the next pixels, for specular antialiasing
     float smoothVariance = 0;   // variance of `interpolated` in the pixel
     float variance = 0;         // variance of `perturbed` in the pixel
-    bool mapped = false;        // has a normal map; only then is `texel` set
-    glm::vec3 texel{0, 0, 1};   // decoded, unit, in the frame; on the camera's side
+    bool mapped = false;        // has a normal map
 };
 
 // The normal, perturbed by the material's normal map.
@@ -144,18 +142,12 @@ struct PreparedLight {
 // The view's lights. The first directional one casts the shadow if the view has shadows.
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye);
 
-// Transforms a pixel's surface and the unit direction to a light, both in world space, to another space in which the
-// light is evaluated, for comparisons by cotan-lab; null: world space. Affects neither shadows, coats nor environments.
-using LightSpace = std::function<void(const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
-                                      const PreparedLight& light, f32::cotan_surface& surface, glm::vec3& toLight)>;
-
 // Inputs that all pixels of an image share.
 struct PixelInputs {
     const View& view;
     Projection projection;
     std::vector<PreparedLight> lights;
     ShadowMap shadow;
-    LightSpace space;
 };
 
 // A shaded point: what the surface of the portable text does not contain.
@@ -172,10 +164,10 @@ struct Layers {
     std::optional<f32::cotan_coat> coat;
 };
 
-// Linear radiance towards the eye, before exposure: lights, environment, emission. in, lane, normal: for
-// PixelInputs::space.
-glm::vec3 radianceOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
-                     const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point);
+// Linear radiance towards the eye, before exposure: lights, environment, emission. in, lane: for the shadows of a
+// relief.
+glm::vec3 radianceOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const f32::cotan_surface& surface,
+                     const Layers& layers, const LitPoint& point);
 
 // Transmittance for the colours behind the surface.
 glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers);
@@ -193,11 +185,5 @@ std::optional<Fragment> shade(const PixelInputs& all, const SurfaceInputs& in, i
 
 // The background in a pixel of the raster: the environment if the view shows it, otherwise 0.
 glm::vec4 background(const PixelInputs& all, int x, int y);
-
-// ---- images ---------------------------------------------------------------------------------
-
-// As renderReference, with lights evaluated in another space.
-Result<Image> renderIn(const LightSpace& space, const Scene& scene, const View& view, int threads,
-                       const Progress& progress = {});
 
 } // namespace cotan::reference

@@ -96,8 +96,8 @@ std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
     return prepared;
 }
 
-glm::vec3 radianceOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
-                     const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point)
+glm::vec3 radianceOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const f32::cotan_surface& surface,
+                     const Layers& layers, const LitPoint& point)
 {
     const View& view = all.view;
     glm::vec3 radiance = surface.emissive, fromCoat(0);
@@ -105,12 +105,8 @@ glm::vec3 radianceOf(const PixelInputs& all, const SurfaceInputs& in, int lane, 
         const std::optional<ArrivingLight> arrival = arrivalOf(light, point, all);
         if (!arrival || (light.castsShadow && reliefLight(in, lane, arrival->toLight) == 0))
             continue;
-        f32::cotan_surface lit = surface;
-        glm::vec3 toLight = arrival->toLight;
-        if (all.space)
-            all.space(in, lane, normal, light, lit, toLight);
-        radiance += arrival->irradiance * meanOfTaps(lit, point, [&](const f32::cotan_surface& s) {
-                        return reflected(s, layers, toLight, view.shading);
+        radiance += arrival->irradiance * meanOfTaps(surface, point, [&](const f32::cotan_surface& s) {
+                        return reflected(s, layers, arrival->toLight, view.shading);
                     });
         if (layers.coat)
             fromCoat += arrival->irradiance * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival->toLight);

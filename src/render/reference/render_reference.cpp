@@ -28,9 +28,9 @@ struct Prepared : PixelInputs {
     TiledTriangles tiled;
 };
 
-Prepared prepare(const Scene& scene, const View& view, const LightSpace& space)
+Prepared prepare(const Scene& scene, const View& view)
 {
-    Prepared f{{view, {}, {}, {}, space}, {}, {}, {}};
+    Prepared f{{view, {}, {}, {}}, {}, {}, {}};
     Ball ball = boundingBall(scene);
     f.projection = cameraProjection(view, ball);
     f.textures = makeTextures(scene, view);
@@ -140,11 +140,11 @@ template<class Store> bool drawTiles(const Prepared& prepared, CountedSteps& don
     return !done.stopped();
 }
 
-Result<Image> draw(const LightSpace& space, const Scene& scene, const View& view, const Progress& progress)
+Result<Image> draw(const Scene& scene, const View& view, const Progress& progress)
 {
     bool bytes = view.output == Output::shaded && !view.linearOutput;
     Image image = makeImage(view.width, view.height, bytes ? PixelType::unorm8 : PixelType::float32, scene.name);
-    Prepared prepared = prepare(scene, view, space);
+    Prepared prepared = prepare(scene, view);
     const std::size_t tiles = prepared.tiled.tiles.size();
     const auto store = [&](int x, int y, glm::vec4 value) { storePixel(image, x, y, value, view.dither); };
     if (!separatesSamples(view)) {
@@ -179,8 +179,7 @@ Status checkSize(const View& view)
 
 } // namespace
 
-Result<Image> reference::renderIn(const LightSpace& space, const Scene& scene, const View& view, int threads,
-                                  const Progress& progress)
+Result<Image> renderReference(const Scene& scene, const View& view, int threads, const Progress& progress)
 {
     for (const Status& ok : {checkSize(view), checkView(view), checkTrianglesDrawn(scene)})
         if (!ok)
@@ -189,18 +188,13 @@ Result<Image> reference::renderIn(const LightSpace& space, const Scene& scene, c
         !has) // checkView has verified the frame
         return has.error();
     try {
-        return withThreads(threads, [&] { return draw(space, scene, view, progress); });
+        return withThreads(threads, [&] { return draw(scene, view, progress); });
     } catch (const TooManyLayers&) {
         return unavailableError("reference renderer: more than " + std::to_string(kMaxLayers)
                                 + " translucent fragments in a tile of 32x32 pixels");
     } catch (const std::bad_alloc&) {
         return unavailableError("reference renderer: not enough memory for this scene and size");
     }
-}
-
-Result<Image> renderReference(const Scene& scene, const View& view, int threads, const Progress& progress)
-{
-    return renderIn({}, scene, view, threads, progress);
 }
 
 } // namespace cotan

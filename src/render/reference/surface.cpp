@@ -320,14 +320,11 @@ SurfaceNormal normalOf(const SurfaceInputs& in, int lane)
         result.variance += lostVariance(view, texel);
         // `mikktspace` returns its interpolated normal, not unit, if the texel is empty.
         result.perturbed = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
-        result.texel = f32::cotan_normalize_or(m, glm::vec3(0, 0, 1));
     }
     // The back of a two-sided material is the other side of the same thin sheet: a bump seen from behind is a dent, so
     // the perturbed normal is negated. t and b stay.
-    if (!in.triangle->front) {
+    if (!in.triangle->front)
         result.perturbed = -result.perturbed;
-        result.texel = -result.texel;
-    }
     return result;
 }
 
