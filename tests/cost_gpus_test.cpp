@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <csignal>
-#include <thread>
 
 #include "cost/cards.hpp"
 #include "in_child.hpp"
@@ -145,34 +143,41 @@ TEST(CostGpus, theCommandReportsTheInvalidLineOfAFile)
     EXPECT_FALSE(std::filesystem::exists(folder / "cost.md"));
 }
 
+// Runs a command of the shell whose standard input leads to the parent.
+std::string shell(const std::string& command, const std::function<void(std::string_view)>& line, int seconds = 60)
+{
+    return inChild(seconds, {"/bin/sh", {"-c", command}, {{"WORD", "well"}}}, line);
+}
+
 TEST(CostChild, outputBeforeACrashIsReceived)
 {
     std::vector<std::string> lines;
     const auto keep = [&](std::string_view line) { lines.emplace_back(line); };
-    const std::string end = inChild(
-        60,
-        [](const LineWriter& write) {
-            write("first\nof two");
-            ::signal(SIGSEGV, SIG_DFL); // sanitizers install their own handler
-            ::raise(SIGSEGV);
-        },
-        keep);
-    EXPECT_EQ(end, "crashed (signal 11)");
-    EXPECT_EQ(lines, std::vector<std::string>{"first of two"});
-    EXPECT_EQ(inChild(
-                  60, [](const LineWriter& write) { write("well"); }, keep),
-              "");
+    EXPECT_EQ(shell("printf 'first\\nsecond\\nhalf' >&0; echo noise >&2; kill -SEGV $$", keep),
+              "crashed (signal 11, Segmentation fault)");
+    EXPECT_EQ(lines, (std::vector<std::string>{"first", "second"}));
+    EXPECT_EQ(shell("echo $WORD >&0", keep), "");
     EXPECT_EQ(lines.back(), "well");
-    EXPECT_EQ(inChild(
-                  60, [](const LineWriter&) { throw 1; }, keep),
-              "ended with 1");
+    EXPECT_EQ(shell("exit 7", keep), "ended with 7");
+    EXPECT_EQ(inChild(60, {"/no/such/program", {}}, keep), "could not be started: No such file or directory");
 }
 
 TEST(CostChild, aHangingOneIsEnded)
 {
-    const std::string end = inChild(
-        1, [](const LineWriter&) { std::this_thread::sleep_for(std::chrono::hours(1)); }, [](std::string_view) {});
-    EXPECT_EQ(end, "took more than 1 s");
+    EXPECT_EQ(shell(
+                  "exec sleep 3600", [](std::string_view) {}, 1),
+              "took more than 1 s");
+}
+
+TEST(CostChild, isStartedByAParentOnly)
+{
+    const std::string child = std::string("'") + COTAN_LAB + "' " + std::string(kChildWord) + " 1 </dev/null";
+    std::string line;
+    EXPECT_EQ(shell("exec 3>&0; " + child + " 2>&1 | cat >&3", [&](std::string_view printed) { line = printed; }), "");
+    EXPECT_EQ(line, std::string(kChildWord) + " is internal: another process starts it");
+    EXPECT_EQ(shell(child, [](std::string_view) {}), "ended with 1");
+    EXPECT_FALSE(runChild(std::vector<std::string>{"cost"}));
+    EXPECT_FALSE(runChild({}));
 }
 
 } // namespace

@@ -27,7 +27,7 @@ const DeviceCode& familyCode(const std::string& family)
 {
     static std::map<std::string, DeviceCode> known;
     if (!known.contains(family))
-        known[family] = machineCodeOfFamily(allRows(), family);
+        known[family] = machineCodeOfFamily(allRows(), family, COTAN_LAB);
     return known[family];
 }
 
@@ -122,7 +122,7 @@ TEST(CostMachineCode, computeStagesAreReportedAndMeshStagesIfSupported)
 
 TEST(CostMachineCode, anUnknownFamilyGivesNoRowsAndNoError)
 {
-    const DeviceCode code = machineCodeOfFamily(allRows(), "NO_SUCH_FAMILY");
+    const DeviceCode code = machineCodeOfFamily(allRows(), "NO_SUCH_FAMILY", COTAN_LAB);
     EXPECT_FALSE(code.silence.empty());
     EXPECT_TRUE(code.rows.empty());
 }

@@ -292,6 +292,7 @@ TEST(CostPrice, ofAFileQueriesNoDriverAndKeepsTheBaselines)
 TEST(CostPrice, queriesOnlyTheNamedGpusAndDevices)
 {
     PriceOptions options;
+    options.program = COTAN_LAB;
     options.frames = {"smooth-fused"};
     options.families = {"no such card"};
     const auto gpus = price(options); // excludes this machine's devices: they are neither queried nor timed
@@ -312,10 +313,11 @@ TEST(CostPrice, queriesOnlyTheNamedGpusAndDevices)
     const auto named = price(options);
     ASSERT_TRUE(named) << named.error().message;
     EXPECT_EQ(named->code.at(0).family, "no such card");
-    if (!machineCodeOfDevices({}, {}))
+    if (!machineCodeOfDevices({}, {}, COTAN_LAB))
         GTEST_SKIP() << "Vulkan cannot be used here";
     for (const bool withGpus : {false, true}) {
         options = {};
+        options.program = COTAN_LAB;
         options.frames = {"smooth-fused"};
         options.devices = {"no such device", "nor this"};
         if (withGpus)

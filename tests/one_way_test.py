@@ -47,7 +47,6 @@ def filesAreOpenedForWritingByOneFunction():
              ("src/files/output.cpp", "fs::rename(part_", "the temporary file appears under its name"),
              ("src/image/oiio_write.cpp", "ImageOutput::create(", "writes to a CheckedFile, which holds an opened OutputFile"),
              ("apps/cotan/batch/file_lock_posix.cpp", "O_RDWR", "opens or makes a file that is locked, and writes nothing"),
-             ("apps/lab/cost/in_child.cpp", '"/dev/null"', "silences a driver"),
              ("src/scene/environment/store_studio.cpp", "std::ofstream file(argv[1]", "a program of the build"),
          ])
 
@@ -73,7 +72,7 @@ def filesAreReadByReadersThatNoteThem():
              ("src/files/sandbox/child_windows.cpp", "_O_RDONLY", "the empty standard input of a child"),
              ("src/files/sandbox/process_posix.cpp", '"/dev/null"', "standard input of a child"),
              ("apps/cotan/batch/digest.cpp", "openStream(path, \"rb\")", "hashes files of jobs, which the batch has noted"),
-             ("apps/lab/cost/price.cpp", '"/etc/os-release"', "the system's name"),
+             ("src/files/system/system_posix.cpp", '"/etc/os-release"', "the system's name"),
              ("src/core/large_array.hpp", "MAP_ANONYMOUS", "memory, not a file"),
          ])
 

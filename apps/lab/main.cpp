@@ -9,6 +9,8 @@ namespace {
 int runCommandLine(std::vector<std::string> words)
 {
     using namespace cotan::app;
+    if (const std::optional<int> code = runCostChild(words))
+        return *code;
     cotan::app::Arguments tool("cotan", "Normal mapping without precomputed tangents: accuracy, figures, costs.",
                                "cotan " COTAN_VERSION);
     addCostCommand(tool, runCost);

@@ -19,6 +19,8 @@ constexpr std::size_t kMaxCardBytes = 64 << 20;
 
 } // namespace
 
+std::optional<int> runCostChild(const std::vector<std::string>& words) { return cost::runChild(words); }
+
 Status runCost(const CostCommandOptions& o)
 {
     std::filesystem::path chart = o.output;

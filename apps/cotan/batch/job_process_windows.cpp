@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "files/sandbox/confine.hpp"
 #include "files/sandbox/process_windows.hpp"
 #include "files/sandbox/request.hpp"
 
@@ -129,9 +130,6 @@ void JobProcess::waitForOne(std::span<JobProcess* const> processes)
     ::WaitForMultipleObjects(DWORD(handles.size()), handles.data(), FALSE, kStep);
 }
 
-void limitJobProcess(const ChildRequest&)
-{
-    ::SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX); // a crash opens no window
-}
+void limitJobProcess(const ChildRequest&) { leaveNoCore(); }
 
 } // namespace cotan::app

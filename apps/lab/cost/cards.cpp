@@ -18,7 +18,7 @@ constexpr std::optional<double> StageCode::*kNumbers[] = {&StageCode::instructio
                                                           &StageCode::registers,         &StageCode::bytes,
                                                           &StageCode::inverseThroughput, &StageCode::latency};
 
-std::string quoted(std::string_view text)
+std::string cellOf(std::string_view text)
 {
     if (text.find_first_of(",\"") == std::string_view::npos)
         return std::string(text);
@@ -71,17 +71,17 @@ std::string gpusToCsv(const std::vector<DeviceCode>& gpus)
 {
     std::string text = std::string(kHeader) + '\n';
     for (const DeviceCode& gpu : gpus) {
-        const std::string head = quoted(gpu.maker) + ',' + quoted(gpu.family.empty() ? gpu.name : gpu.family) + ','
-            + quoted(gpu.name) + ',' + quoted(gpu.driver) + ',' + gpu.date + ',';
+        const std::string head = cellOf(gpu.maker) + ',' + cellOf(gpu.family.empty() ? gpu.name : gpu.family) + ','
+            + cellOf(gpu.name) + ',' + cellOf(gpu.driver) + ',' + gpu.date + ',';
         const auto line = [&](std::string_view stage, std::string_view row, const StageCode& code) {
-            text += head + std::string(stage) + ',' + quoted(row);
+            text += head + std::string(stage) + ',' + cellOf(row);
             for (const auto number : kNumbers) {
                 text += ',';
                 char digits[32];
                 if (code.*number)
                     text.append(digits, std::to_chars(digits, digits + sizeof digits, *(code.*number)).ptr);
             }
-            text += ',' + quoted(code.failure) + '\n';
+            text += ',' + cellOf(code.failure) + '\n';
         };
         if (!gpu.silence.empty()) {
             StageCode none;

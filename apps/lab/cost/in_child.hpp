@@ -1,19 +1,17 @@
-// Runs work in a child process, so that a crashing driver does not take the program with it.
+// Runs a program in a child process, so that a crashing driver does not take this one with it.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <string_view>
 
+#include "files/sandbox/child.hpp"
+
 namespace cotan::cost {
 
-// Sends one line to the parent immediately. Line breaks in it become spaces.
-using LineWriter = std::function<void(std::string_view)>;
-
-// Runs `work` in a child process and passes each line it writes to `line`. The child's standard error, where drivers
-// print messages, is discarded. Returns "" if the child succeeded, else a phrase that follows a name, such as "crashed
-// (signal 11)". A child that writes no line for `seconds` is ended.
-std::string inChild(int seconds, const std::function<void(const LineWriter&)>& work,
-                    const std::function<void(std::string_view)>& line);
+// Runs the program and passes each line it sends (ParentConnection) to `line`. Its standard error, where drivers print
+// messages, is discarded. Returns "" if it succeeded, else a phrase that follows a name, such as "crashed (signal 11,
+// Segmentation fault)". A child that sends nothing for `seconds` is ended.
+std::string inChild(int seconds, const ChildProgram& program, const std::function<void(std::string_view)>& line);
 
 } // namespace cotan::cost

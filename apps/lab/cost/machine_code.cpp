@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <functional>
 
 #include "compile.hpp"
+#include "files/sandbox/confine.hpp"
+#include "files/system/program.hpp"
+#include "files/system/system.hpp"
 #include "in_child.hpp"
 #include "statistics.hpp"
 
@@ -15,30 +20,6 @@ namespace {
 
 constexpr int kSeconds = 300;  // timeout for one stage; emulated drivers are slow
 constexpr int kMaxCrashes = 5; // maximum crashes before a device is given up
-
-// Sets an environment variable for the lifetime of the object.
-class EnvironmentVariable {
-public:
-    EnvironmentVariable(const char* name, const std::string& value) : name_(name)
-    {
-        if (const char* old = std::getenv(name))
-            old_ = old;
-        ::setenv(name, value.c_str(), 1);
-    }
-    ~EnvironmentVariable()
-    {
-        if (old_)
-            ::setenv(name_, old_->c_str(), 1);
-        else
-            ::unsetenv(name_);
-    }
-    EnvironmentVariable(const EnvironmentVariable&) = delete;
-    EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
-
-private:
-    const char* name_;
-    std::optional<std::string> old_;
-};
 
 // Splits a line of the child-to-parent protocol: a keyword and its values, separated by tabs.
 std::vector<std::string> cells(std::string_view line)
@@ -81,6 +62,8 @@ std::string today()
 }
 
 // ---- in the child ---------------------------------------------------------------------------
+
+using LineWriter = std::function<void(const std::string&)>;
 
 void writeDevices(const LineWriter& write)
 {
@@ -125,12 +108,22 @@ struct Listed {
     bool radv = false;
 };
 
+// The program that becomes a child, and the variables that its drivers read.
+ChildProgram childProgram(const std::filesystem::path& program)
+{
+    return {program.empty() ? sameProgram() : program,
+            {std::string(kChildWord), std::to_string(thisProcess())},
+            // Mesa reports no statistics for a shader that comes from its cache.
+            {{"MESA_SHADER_CACHE_DISABLE", "true"}},
+            /*confined*/ false};
+}
+
 // Errors: why Vulkan cannot be used; "crashed" if a driver crashes while devices are listed.
-Result<std::vector<Listed>> listInChild()
+Result<std::vector<Listed>> listInChild(const ChildProgram& program)
 {
     std::vector<Listed> list;
     std::string silence;
-    const std::string end = inChild(kSeconds, writeDevices, [&](std::string_view line) {
+    const std::string end = inChild(kSeconds, program, [&](std::string_view line) {
         std::vector<std::string> c = cells(line);
         c.resize(6);
         if (c[0] == "silence")
@@ -146,26 +139,28 @@ Result<std::vector<Listed>> listInChild()
 }
 
 // Compiles all stages of the device, starting a new child after each crash.
-void compileAll(DeviceCode& code, std::size_t device, const std::vector<const Row*>& rows)
+void compileAll(DeviceCode& code, std::size_t device, const std::vector<const Row*>& rows, const ChildProgram& program)
 {
     prepareStages(code, rows);
     std::size_t next = 0; // the first stage that was not started
     for (int crashes = 0; next < stageCount(rows);) {
         const std::size_t from = next;
-        const std::string end = inChild(
-            kSeconds, [&](const LineWriter& write) { writeStages(device, rows, from, write); },
-            [&](std::string_view line) {
-                std::vector<std::string> c = cells(line);
-                c.resize(3);
-                if (c[0] == "stage")
-                    ++next;
-                else if (c[0] == "silence")
-                    code.silence = c[1];
-                else if (next > 0 && c[0] == "failure")
-                    stageAt(code, next - 1).failure = c[1];
-                else if (next > 0 && c[0] == "value")
-                    stageAt(code, next - 1).all.emplace_back(c[1], value(c[2]));
-            });
+        ChildProgram child = program;
+        child.arguments.insert(child.arguments.end(), {std::to_string(device), std::to_string(from)});
+        for (const Row* row : rows)
+            child.arguments.emplace_back(row->name);
+        const std::string end = inChild(kSeconds, child, [&](std::string_view line) {
+            std::vector<std::string> c = cells(line);
+            c.resize(3);
+            if (c[0] == "stage")
+                ++next;
+            else if (c[0] == "silence")
+                code.silence = c[1];
+            else if (next > 0 && c[0] == "failure")
+                stageAt(code, next - 1).failure = c[1];
+            else if (next > 0 && c[0] == "value")
+                stageAt(code, next - 1).all.emplace_back(c[1], value(c[2]));
+        });
         if (end.empty())
             break;
         if (next == from) {
@@ -199,11 +194,11 @@ const std::vector<std::string>& usualFamilies()
 }
 
 Result<std::vector<DeviceCode>> machineCodeOfDevices(const std::vector<const Row*>& rows,
-                                                     const std::vector<std::string>& devices)
+                                                     const std::vector<std::string>& devices,
+                                                     const std::filesystem::path& program)
 {
-    // Mesa reports no statistics for a shader that comes from its cache.
-    const EnvironmentVariable noCache("MESA_SHADER_CACHE_DISABLE", "true");
-    auto listed = listInChild();
+    const ChildProgram child = childProgram(program);
+    auto listed = listInChild(child);
     if (!listed)
         return unavailableError("Vulkan cannot be used: " + listed.error().message);
     std::vector<DeviceCode> result;
@@ -212,18 +207,19 @@ Result<std::vector<DeviceCode>> machineCodeOfDevices(const std::vector<const Row
         if (!wanted(code.name, devices))
             continue;
         if (code.silence.empty())
-            compileAll(code, i, rows);
+            compileAll(code, i, rows, child);
         result.push_back(std::move(code));
     }
     return result;
 }
 
-DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::string& family)
+DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::string& family,
+                               const std::filesystem::path& program)
 {
-    const EnvironmentVariable noCache("MESA_SHADER_CACHE_DISABLE", "true");
-    const EnvironmentVariable forced("RADV_FORCE_FAMILY", family);
+    ChildProgram child = childProgram(program);
+    child.environment["RADV_FORCE_FAMILY"] = family;
     DeviceCode result;
-    auto listed = listInChild();
+    auto listed = listInChild(child);
     if (!listed) {
         // Before Mesa 26 the driver aborts if it does not know the family.
         result.silence = listed.error().message + ": does Mesa's Radeon driver know this family?";
@@ -234,10 +230,39 @@ DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::s
     } else {
         result = std::move(radv->code);
         if (result.silence.empty())
-            compileAll(result, std::size_t(radv - listed->begin()), rows);
+            compileAll(result, std::size_t(radv - listed->begin()), rows, child);
     }
     result.family = family;
     return result;
+}
+
+std::optional<int> runChild(std::span<const std::string> words)
+{
+    if (words.empty() || words[0] != kChildWord)
+        return std::nullopt;
+    const auto parent = ParentConnection::take();
+    if (!parent || words.size() < 2) {
+        std::fputs((words[0] + " is internal: another process starts it\n").c_str(), stderr);
+        return 1;
+    }
+    leaveNoCore();
+    dieWith(std::atoll(words[1].c_str()));
+    const LineWriter write = [&](std::string line) {
+        std::ranges::replace(line, '\n', ' ');
+        line += '\n';
+        if (!parent->send(std::as_bytes(std::span(line))))
+            std::_Exit(1);
+    };
+    if (words.size() < 4) {
+        writeDevices(write);
+        return 0;
+    }
+    std::vector<const Row*> rows;
+    for (const std::string& name : words.subspan(4))
+        if (const Row* row = rowFromName(name))
+            rows.push_back(row);
+    writeStages(std::size_t(std::atoll(words[2].c_str())), rows, std::size_t(std::atoll(words[3].c_str())), write);
+    return 0;
 }
 
 const StageCode& fragmentCode(const DeviceCode& device, std::string_view row)

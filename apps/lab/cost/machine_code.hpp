@@ -1,7 +1,9 @@
 // What drivers report about their machine code (VK_KHR_pipeline_executable_properties).
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,14 +57,22 @@ struct DeviceCode {
 const std::vector<std::string>& usualFamilies();
 
 // Compiles the rows on every Vulkan device of this machine whose name contains one of `devices` (ignoring case; all
-// devices if empty). Drivers run in child processes: a crash loses only the stage being compiled, or the device. Not
-// for programs with other threads. Errors: ErrorKind::unavailable if Vulkan cannot be used at all.
+// devices if empty). Drivers run in child processes: a crash loses only the stage being compiled, or the device.
+// `program` is what is started as a child: one whose main() begins with runChild; empty: this one. Errors:
+// ErrorKind::unavailable if Vulkan cannot be used at all.
 Result<std::vector<DeviceCode>> machineCodeOfDevices(const std::vector<const Row*>& rows,
-                                                     const std::vector<std::string>& devices);
+                                                     const std::vector<std::string>& devices,
+                                                     const std::filesystem::path& program = {});
 
 // Compiles the rows with Mesa's Radeon driver for a GPU family (RADV_FORCE_FAMILY); no such GPU is needed. Mesa 26 no
-// longer supports this. Sets the environment variable for the duration of the call.
-DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::string& family);
+// longer supports this.
+DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::string& family,
+                               const std::filesystem::path& program = {});
+
+// If the words of a command line, without the program's name, are those of a child of these functions: does its work
+// and returns the exit code.
+inline constexpr std::string_view kChildWord = "price-for-parent";
+std::optional<int> runChild(std::span<const std::string> words);
 
 // Return the code of a stage, or an empty one if the device has none.
 const StageCode& fragmentCode(const DeviceCode& device, std::string_view row);

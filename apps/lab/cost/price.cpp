@@ -1,29 +1,14 @@
 #include "cost/price.hpp"
 
 #include <algorithm>
-#include <fstream>
-
-#include <sys/utsname.h>
 
 #include "core/try.hpp"
 #include "cost/cards.hpp"
+#include "files/system/system.hpp"
 
 namespace cotan::cost {
 
 namespace {
-
-std::string machineText()
-{
-    std::string system;
-    std::ifstream release("/etc/os-release");
-    for (std::string line; std::getline(release, line);)
-        if (line.rfind("PRETTY_NAME=", 0) == 0)
-            system = line.substr(12);
-    system.erase(std::remove(system.begin(), system.end(), '"'), system.end());
-    utsname name{};
-    ::uname(&name);
-    return (system.empty() ? std::string(name.sysname) : system) + ", " + name.machine;
-}
 
 std::string joined(const std::vector<std::string>& words, const char* between)
 {
@@ -62,7 +47,7 @@ Status measure(const PriceOptions& o, CostReport& report)
                                                                   : std::vector<std::string>();
     CountedSteps steps(o.progress, families.size() + 2); // devices, families, times
     if (o.families.empty() || !o.devices.empty()) {
-        auto code = machineCodeOfDevices(report.rows, o.devices);
+        auto code = machineCodeOfDevices(report.rows, o.devices, o.program);
         if (code)
             report.code = std::move(*code);
         else
@@ -79,7 +64,7 @@ Status measure(const PriceOptions& o, CostReport& report)
     if (!steps.step())
         return stoppedError();
     for (const std::string& family : families) {
-        report.code.push_back(machineCodeOfFamily(report.rows, family));
+        report.code.push_back(machineCodeOfFamily(report.rows, family, o.program));
         if (!steps.step())
             return stoppedError();
     }
@@ -103,7 +88,7 @@ Result<CostReport> price(const PriceOptions& options)
 {
     COTAN_TRY(rows, chosenRows(options.frames));
     CostReport report;
-    report.machine = machineText();
+    report.machine = systemName();
     report.rows = std::move(*rows);
     Status measured = Done{};
     if (options.cards.empty()) {

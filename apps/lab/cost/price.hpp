@@ -18,8 +18,9 @@ struct PriceOptions {
     std::string cards;                 // output of gpusToCsv; if not empty, no driver is queried and nothing is timed
     std::string name;                  // name of the device in tables; empty: its own name
     bool timing = true;
-    bool timeCpuDevices = false; // also time drivers that render on the CPU
-    int repeats = 15;            // number of draws, whose median is taken
+    bool timeCpuDevices = false;     // also time drivers that render on the CPU
+    int repeats = 15;                // number of draws, whose median is taken
+    std::filesystem::path program{}; // as for machineCodeOfDevices
     Progress progress{};
 };
 

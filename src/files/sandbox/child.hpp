@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,6 +29,15 @@ struct ChildEnd {
     std::string cause{}; // of crashed and killed: "signal 11, Segmentation fault"
 };
 
+struct ChildProgram {
+    std::filesystem::path program;
+    std::vector<std::string> arguments;
+    std::map<std::string, std::string> environment{}; // variables that are added to ours or replace them
+    // Windows: no processes of its own, no access to the clipboard and to other programs' windows. Elsewhere a child
+    // confines itself.
+    bool confined = true;
+};
+
 // The parent's side. The child ends with this object, and with the thread that started it or the whole process.
 class Child {
 public:
@@ -40,7 +50,7 @@ public:
 
     // Starts the program with nothing open but the connection and a pipe for its messages. Returns the system's reason
     // on failure, otherwise an empty text.
-    std::string start(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+    std::string start(const ChildProgram& program);
 
     // Until when send, receive and end() wait, and what the child may use. Where a child cannot limit itself, it is
     // ended here when it uses more.

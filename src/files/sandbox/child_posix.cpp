@@ -93,12 +93,12 @@ Child::Child() : system_(std::make_unique<System>()) {}
 
 Child::~Child() { kill(); }
 
-std::string Child::start(const std::filesystem::path& program, const std::vector<std::string>& arguments)
+std::string Child::start(const ChildProgram& p)
 {
     Descriptor socket[2], messages[2];
     if (!makeChannels(socket, messages))
         return std::strerror(errno);
-    const SpawnRequest child{program.string(), arguments, socket[1].get(), messages[1].get()};
+    const SpawnRequest child{p.program.string(), p.arguments, socket[1].get(), messages[1].get(), {}, p.environment};
     if (const int problem = spawn(child, system_->process))
         return std::strerror(problem);
     system_->socket =

@@ -32,7 +32,7 @@ bool writePipe(HANDLE pipe, std::span<const std::byte> bytes)
 
 // A job whose processes end with its last handle, that starts no further processes, and that has no access to the
 // clipboard, the desktop and other programs' windows.
-Handle makeJob()
+Handle confiningJob()
 {
     Handle job(::CreateJobObjectW(nullptr, nullptr));
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
@@ -100,15 +100,15 @@ Child::Child() : system_(std::make_unique<System>()) {}
 
 Child::~Child() { kill(); }
 
-std::string Child::start(const std::filesystem::path& program, const std::vector<std::string>& arguments)
+std::string Child::start(const ChildProgram& p)
 {
     Pipe input, output, error;
     if (!input.open(/*childReads*/ true) || !output.open(false) || !error.open(false))
         return lastReason();
     System& s = *system_;
-    s.job = makeJob();
-    const SpawnRequest request{program,    arguments, input.childs.get(), output.childs.get(), error.childs.get(),
-                               s.job.get()};
+    s.job = p.confined ? confiningJob() : endingJob();
+    const SpawnRequest request{p.program,   p.arguments, input.childs.get(), output.childs.get(), error.childs.get(),
+                               s.job.get(), {},          p.environment};
     if (std::string why = spawn(request, s.process); !why.empty())
         return why;
     s.input = std::move(input.ours);

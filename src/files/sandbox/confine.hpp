@@ -24,6 +24,7 @@ inline constexpr bool kSanitized = COTAN_SANITIZED;
 void dieWith(std::int64_t parent, int signal = 9 /*SIGKILL*/);
 
 // Disables core files, including those piped to a program, and prevents other processes from attaching to this one.
+// Windows: a crash opens no window.
 void leaveNoCore();
 
 // Sets the soft and hard limits of a resource of this process, such as RLIMIT_DATA. Never raises the hard limit.

@@ -22,9 +22,11 @@ void lowerIntegrity()
 
 void dieWith(std::int64_t, int) {} // the parent's job ends with it
 
+void leaveNoCore() { ::SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX); }
+
 void confine()
 {
-    ::SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX); // a crash opens no window
+    leaveNoCore();
     lowerIntegrity();
 }
 

@@ -48,7 +48,7 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     std::unique_ptr<ReaderProcess> started(new ReaderProcess(request));
     std::vector<std::string> words = request.limits.sandbox.arguments;
     words.emplace_back(kReaderWord);
-    if (const std::string why = started->child_.start(request.limits.sandbox.program, words); !why.empty())
+    if (const std::string why = started->child_.start({request.limits.sandbox.program, words}); !why.empty())
         return unavailableError(fmt::format("{}: cannot start the reader process {}: {}", request.name,
                                             request.limits.sandbox.program.string(), why));
     request.parent = thisProcess();

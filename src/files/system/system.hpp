@@ -44,6 +44,10 @@ bool isRunning(pid_t process); // on this machine
 // Identifies the numbers of processes: a machine, or a container on it.
 std::string machineName();
 
+// The operating system and the kind of processor: "Debian GNU/Linux 12 (bookworm), x86_64", "Windows 10.0.19045,
+// x86_64".
+std::string systemName();
+
 // Memory in bytes; 0: unknown.
 double machineMemory();
 double peakMemory(); // the most that this process had

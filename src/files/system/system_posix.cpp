@@ -1,9 +1,11 @@
 #include <cerrno>
 #include <csignal>
+#include <fstream>
 #include <string_view>
 
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include "files/system/system.hpp"
@@ -59,6 +61,19 @@ std::string machineName()
     if (::readlink("/proc/self/ns/pid", text + length, sizeof text - length - 1) < 0) // other systems have none
         text[length] = '\0';
     return text;
+}
+
+std::string systemName()
+{
+    utsname name{};
+    ::uname(&name);
+    std::string system = name.sysname;
+    std::ifstream release("/etc/os-release");
+    for (std::string line; std::getline(release, line);)
+        if (line.starts_with("PRETTY_NAME="))
+            system = line.substr(line.find('=') + 1);
+    std::erase(system, '"');
+    return system + ", " + name.machine;
 }
 
 double machineMemory()

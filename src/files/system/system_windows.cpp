@@ -95,6 +95,19 @@ std::string machineName()
     return fs::path(text).string();
 }
 
+std::string systemName()
+{
+    // The only call that tells the version to programs whose manifest names another.
+    using GetVersion = LONG(WINAPI*)(OSVERSIONINFOW*);
+    OSVERSIONINFOW v{};
+    v.dwOSVersionInfoSize = sizeof v;
+    if (const auto call = ::GetProcAddress(::GetModuleHandleW(L"ntdll.dll"), "RtlGetVersion"))
+        reinterpret_cast<GetVersion>(reinterpret_cast<void*>(call))(&v);
+    const auto number = [](DWORD n) { return std::to_string(n); };
+    return "Windows " + number(v.dwMajorVersion) + "." + number(v.dwMinorVersion) + "." + number(v.dwBuildNumber)
+        + ", x86_64";
+}
+
 double machineMemory()
 {
     MEMORYSTATUSEX status{};
