@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -201,6 +202,13 @@ TEST(ConvertNotes, sayIfManyTrianglesRepeatTheMap)
     EXPECT_EQ(refusalOf(sheets({mesh}, slopeMap({0.4, 0.2, 1}, 1, 512)), towards(Frame::cotangent)),
               "slope: its triangles cover 4.35e+07 rows of its texels in total; expected at most 4e+07: use fewer "
               "triangles that repeat the map, or a smaller map");
+}
+
+TEST(ConvertNotes, mapsOver65535TexelsASideAreRefused)
+{
+    for (const auto& [width, height] : {std::pair(65536, 1), std::pair(1, 65536)})
+        EXPECT_EQ(refusalOf(sheets({wide(1)}, slopeMap({0.4, 0.2, 1}, width, height)), towards(Frame::cotangent)),
+                  fmt::format("slope: expected a map of at most 65535 texels a side; found {} x {}", width, height));
 }
 
 TEST(ConvertNotes, nameConflictingFramesWithTheirMaterial)

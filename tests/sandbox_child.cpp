@@ -89,7 +89,7 @@ void answerError(const std::string& message)
 
 // An image with a header that may be false, from SANDBOX_CHILD_PICTURE: width, height, channels, number of bytes.
 struct Claim {
-    std::string name = "picture", frame;
+    std::string name = "picture", frame, blocks;
     int width = 0, height = 0, channels = 0;
     PixelType type = PixelType::unorm8;
     bool alpha = false, whole = false;

@@ -77,10 +77,9 @@ Loaded read(const char* file, const std::string& animation = "", double time = 0
 {
     Loaded loaded;
     auto model = std::make_shared<Model>(*builtIn().model);
-    loaded.options.model = file;
-    loaded.options.animation = animation;
-    loaded.options.time = time;
-    model->read = loaded.options;
+    model->read.model = file;
+    model->read.animation = animation;
+    model->read.time = time;
     model->scene.warnings.clear();
     loaded.model = std::move(model);
     return loaded;
@@ -91,7 +90,6 @@ TEST(ViewerLoader, loadsUpdateTheStateAndErrorsStayUntilSuccess)
     State s;
     Loaded wrong;
     wrong.error = inputError("m.glb: broken");
-    wrong.options.model = "m.glb";
     s.playing = true;
     s.picture.animation = "walk";
     take(s, wrong);
@@ -110,8 +108,8 @@ TEST(ViewerLoader, loadsUpdateTheStateAndErrorsStayUntilSuccess)
     Loaded good = read("/f/m.glb", "run", 2);
     auto warned = std::make_shared<Model>(*good.model);
     warned->scene.warnings = {"first", "second"};
+    warned->read.variant = "red";
     good.model = warned;
-    good.options.variant = "red";
     take(s, good);
     EXPECT_EQ(s.problem, "");
     EXPECT_EQ(s.loads, 1u);
@@ -138,7 +136,9 @@ TEST(ViewerLoader, loadsUpdateTheStateAndErrorsStayUntilSuccess)
     EXPECT_EQ(s.picture.time, 7);
     EXPECT_EQ(s.message, "first");
     Loaded shape = read("");
-    shape.options.shape = "torus";
+    auto torus = std::make_shared<Model>(*shape.model);
+    torus->read.shape = "torus";
+    shape.model = torus;
     take(s, shape);
     EXPECT_FALSE(s.playing);
     EXPECT_EQ(s.picture.shape, "torus");

@@ -232,10 +232,10 @@ TEST(ViewerRequests, loadingAnotherModelResetsShapeVariantAndTime)
 TEST(ViewerLoader, recentFilesAreTheTenLatestWithoutRepeats)
 {
     State s;
-    auto model = std::make_shared<Model>();
     const auto opened = [&](const std::string& file) {
+        auto model = std::make_shared<Model>();
+        model->read.model = file;
         Loaded loaded;
-        loaded.options.model = file;
         loaded.model = model;
         take(s, loaded);
     };

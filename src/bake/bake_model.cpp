@@ -10,6 +10,7 @@
 #include "bake/bake_kinds.hpp"
 #include "bake/bake_surfaces.hpp"
 #include "bake/name_pairs.hpp"
+#include "bake/surface/nearest_texels.hpp"
 #include "bake/verdict.hpp"
 #include "core/named_values.hpp"
 #include "core/try.hpp"
@@ -25,7 +26,6 @@ namespace cotan {
 
 namespace {
 
-constexpr int kLargestSide = 65535; // texels: texel indices have 32 bits
 constexpr int kMaxOcclusionRays = 1 << 16;
 constexpr SceneRules kRules{.pixels = false};
 constexpr float kFarthest = 1e17f; // model units: Embree terminates the program for rays that start beyond 1.8e18

@@ -25,7 +25,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t kPartBytes = 1 << 18; // of filtered rows that are compressed on their own
 constexpr std::size_t kPartsAtOnce = 32;
 constexpr std::uint8_t kFilterUp = 2; // each byte minus that above it
-constexpr int kLevel = 2; // a quarter of the time of level 6, for files that are a quarter larger
+constexpr int kLevel = 2;             // a quarter of the time of level 6, for files that are a quarter larger
 
 // Appends rows as blocks of deflate that end on a whole byte; none is the last block of a stream.
 void deflateRows(const Bytes& rows, Bytes& packed)

@@ -8,6 +8,7 @@
 
 #include "bake/convert/choose_primitives.hpp"
 #include "bake/convert/map_jobs.hpp"
+#include "bake/surface/nearest_texels.hpp"
 #include "core/try.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
@@ -234,6 +235,9 @@ private:
             noteErrorOfKept(done);
             return done;
         }
+        if (std::max(map->width, map->height) > kLargestSide)
+            return inputError(fmt::format("{}: expected a map of at most {} texels a side; found {} x {}", field,
+                                          kLargestSide, map->width, map->height));
         if (const double rows = rowsOf(*uses, map->height); !(rows <= kMaxRows))
             return inputError(
                 fmt::format("{}: its triangles cover {:.3g} rows of its texels in total; expected at most "

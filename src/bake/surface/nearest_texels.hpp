@@ -9,6 +9,7 @@
 namespace cotan {
 
 inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
+inline constexpr int kLargestSide = 65535; // of a map, in texels: propagateNearest packs two of them
 
 // Which of several equally near texels is taken: that of the neighbour which is asked first.
 enum class TieBreak {
@@ -16,12 +17,12 @@ enum class TieBreak {
     beside, // beside, then the corner, above, the other corner
 };
 
-// owner: width * height entries, row by row, at most 65536 a side and fewer than kNoTexel: the texel's own index if it
-// has a value, otherwise kNoTexel. Afterwards every entry is the index of a nearby texel with a value, or kNoTexel if
-// that is more than `radius` texels away (0: no limit). Two sweeps, down and up, propagate the nearest texel to the
-// eight neighbours (P.-E. Danielsson, Euclidean distance mapping, 1980); `first` applies to the sweep down, the other
-// asks the opposite neighbours in that order. Sometimes errs by a fraction of a texel. The image does not wrap around.
-// If no texel has a value, all entries stay kNoTexel.
+// owner: width * height entries, row by row, at most kLargestSide a side: the texel's own index if it has a value,
+// otherwise kNoTexel. Afterwards every entry is the index of a nearby texel with a value, or kNoTexel if that is more
+// than `radius` texels away (0: no limit). Two sweeps, down and up, propagate the nearest texel to the eight neighbours
+// (P.-E. Danielsson, Euclidean distance mapping, 1980); `first` applies to the sweep down, the other asks the opposite
+// neighbours in that order. Sometimes errs by a fraction of a texel. The image does not wrap around. If no texel has a
+// value, all entries stay kNoTexel.
 inline void propagateNearest(std::span<std::uint32_t> owner, int width, int height, TieBreak first, int radius = 0)
 {
     // A texel with a value, as seen from another one.
