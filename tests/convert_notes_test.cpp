@@ -206,8 +206,10 @@ TEST(ConvertNotes, sayIfManyTrianglesRepeatTheMap)
 
 TEST(ConvertNotes, mapsOver65535TexelsASideAreRefused)
 {
+    ConvertModelOptions options = towards(Frame::cotangent);
+    options.limits.imageSide = 1 << 17; // a caller's; the default is less
     for (const auto& [width, height] : {std::pair(65536, 1), std::pair(1, 65536)})
-        EXPECT_EQ(refusalOf(sheets({wide(1)}, slopeMap({0.4, 0.2, 1}, width, height)), towards(Frame::cotangent)),
+        EXPECT_EQ(refusalOf(sheets({wide(1)}, slopeMap({0.4, 0.2, 1}, width, height)), options),
                   fmt::format("slope: expected a map of at most 65535 texels a side; found {} x {}", width, height));
 }
 
