@@ -208,8 +208,9 @@ TEST(ConvertNotes, mapsOver65535TexelsASideAreRefused)
 {
     ConvertModelOptions options = towards(Frame::cotangent);
     options.limits.imageSide = 1 << 17; // a caller's; the default is less
+    options.bits = 8;
     for (const auto& [width, height] : {std::pair(65536, 1), std::pair(1, 65536)})
-        EXPECT_EQ(refusalOf(sheets({wide(1)}, slopeMap({0.4, 0.2, 1}, width, height)), options),
+        EXPECT_EQ(refusalOf(sheets({wide(2)}, slopeMap({0.4, 0.2, 1}, width, height)), options),
                   fmt::format("slope: expected a map of at most 65535 texels a side; found {} x {}", width, height));
 }
 
