@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <new>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -31,7 +32,8 @@ constexpr int kLevel = 2;             // a quarter of the time of level 6, for f
 void deflateRows(const Bytes& rows, Bytes& packed)
 {
     z_stream stream{};
-    deflateInit2(&stream, kLevel, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL - 1, Z_DEFAULT_STRATEGY);
+    if (deflateInit2(&stream, kLevel, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL - 1, Z_DEFAULT_STRATEGY) != Z_OK)
+        throw std::bad_alloc(); // its only error with these arguments
     const std::size_t begin = packed.size();
     packed.resize(begin + deflateBound(&stream, uLong(rows.size())) + 16); // the bound is for Z_FINISH
     stream.next_in = const_cast<Bytef*>(rows.data());
