@@ -2,10 +2,14 @@
 // values that the help lists.
 #include <gtest/gtest.h>
 
+#include <clocale>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
+#include "core/real_from_chars.hpp"
 #include "core/real_number.hpp"
 #include "terminal/arguments.hpp"
 #include "terminal/command_words.hpp"
@@ -370,6 +374,38 @@ TEST(CommandWords, theNearestCommandIsSuggested)
     EXPECT_EQ(quoted(""), "''");
     EXPECT_EQ(quoted("it's"), "'it'\\''s'");
     EXPECT_EQ(quoted("a b"), "'a b'");
+}
+
+// As std::from_chars: the same end, error and bits.
+template<class Real> void expectSameAsStandard(const std::string& text)
+{
+    Real ours = -7, standards = -7;
+    const char* const end = text.data() + text.size();
+    const auto found = realFromChars(text.data(), end, ours);
+    const auto expected = std::from_chars(text.data(), end, standards);
+    ASSERT_EQ(found.ptr - text.data(), expected.ptr - text.data()) << text;
+    ASSERT_EQ(found.ec, expected.ec) << text;
+    ASSERT_TRUE(std::memcmp(&ours, &standards, sizeof ours) == 0 || (std::isnan(ours) && std::isnan(standards)))
+        << text;
+}
+
+TEST(RealFromChars, readsRandomTextsAsTheStandardLibraryInAnyLocale)
+{
+    std::mt19937 random(7);
+    const auto below = [&](unsigned n) { return random() % n; };
+    for (const char* const locale : {"C", "de_DE.UTF-8"}) {
+        std::setlocale(LC_ALL, locale); // where the system lacks it, the first one again
+        for (int i = 0; i < 50'000; ++i) {
+            std::string text;
+            for (unsigned size = below(14); size > 0; --size)
+                text += below(3) == 0 ? ".eE+-infatyINx "[below(15)] : char('0' + below(10));
+            if (below(4) == 0)
+                text += (below(2) == 0 ? "e-" : "e") + std::to_string(below(420));
+            expectSameAsStandard<double>(text);
+            expectSameAsStandard<float>(text);
+        }
+    }
+    std::setlocale(LC_ALL, "C");
 }
 
 } // namespace

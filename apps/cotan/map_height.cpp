@@ -1,10 +1,11 @@
 // `cotan map from-height` and `to-height`: converts a height image to a normal map, and back.
-#include <charconv>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/parse_number.hpp"
 #include "core/try.hpp"
 #include "map_files/height.hpp"
 #include "map_options.hpp"
@@ -36,15 +37,13 @@ Result<std::optional<Metres>> parseMetres(const std::string& text)
 {
     if (text.empty())
         return std::optional<Metres>();
-    // Not strtod, which would parse "0x1" as one number.
+    const std::string_view words = text, width = words.substr(0, words.find('x'));
+    const bool both = width.size() < words.size();
     Metres metres{0, 0};
-    const char* const last = text.data() + text.size();
-    const char* end = std::from_chars(text.data(), last, metres.width).ptr;
-    const bool both = end != last && *end == 'x';
-    if (both)
-        end = std::from_chars(end + 1, last, metres.height).ptr;
+    const bool read = parseNumber(width, metres.width)
+        && (!both || parseNumber(words.substr(width.size() + 1), metres.height));
     const double height = both ? metres.height : metres.width;
-    if (end != last || !(metres.width > 0) || !(height > 0) || !std::isfinite(metres.width * height))
+    if (!read || !(metres.width > 0) || !(height > 0) || !std::isfinite(metres.width * height))
         return usageError(fmt::format("--metres: expected metres as W or WxH, each over 0; found '{}'", text));
     return std::optional(metres);
 }

@@ -140,7 +140,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
         a.option(
              name, "", [](const std::string&) { return Status(Done{}); }, "")
             .unlisted()
-            .refused([name, why = why] { return fmt::format("unknown option {}: {}", name, why); });
+            .refused([name, reason = why] { return fmt::format("unknown option {}: {}", name, reason); });
     }
 }
 

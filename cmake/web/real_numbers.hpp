@@ -5,7 +5,6 @@
 #if defined(_LIBCPP_VERSION) && !defined(__cpp_lib_bit_cast) && __cplusplus > 201703L
 #define COTAN_REAL_NUMBERS
 
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -16,55 +15,15 @@
 #include <system_error>
 #include <type_traits>
 
+#include "../../src/core/real_from_chars.hpp"
+
 namespace std {
 
 template<class Real>
 requires std::is_floating_point_v<Real> std::from_chars_result from_chars(const char* first, const char* last,
                                                                           Real& value)
 {
-    const char* at = first + (first != last && *first == '-');
-    const auto digits = [&] {
-        const char* const begin = at;
-        while (at != last && std::isdigit(static_cast<unsigned char>(*at)))
-            ++at;
-        return at - begin;
-    };
-    const auto isWord = [&](const char* word, std::size_t size) {
-        for (std::size_t i = 0; i < size; ++i)
-            if (std::size_t(last - at) <= i || std::tolower(static_cast<unsigned char>(at[i])) != word[i])
-                return false;
-        return true;
-    };
-    bool finite = false;
-    if (isWord("infinity", 8))
-        at += 8;
-    else if (isWord("inf", 3) || isWord("nan", 3))
-        at += 3;
-    else {
-        finite = true;
-        std::ptrdiff_t count = digits();
-        if (at != last && *at == '.') {
-            ++at;
-            count += digits();
-        }
-        if (count == 0)
-            return {first, std::errc::invalid_argument};
-        if (at != last && (*at == 'e' || *at == 'E')) {
-            const char* const mantissa = at++;
-            at += at != last && (*at == '+' || *at == '-');
-            if (digits() == 0)
-                at = mantissa;
-        }
-    }
-    const std::string text(first, at);
-    const Real number = std::is_same_v<Real, float> ? Real(std::strtof(text.c_str(), nullptr))
-                                                    : Real(std::strtod(text.c_str(), nullptr));
-    const bool tooSmall =
-        number == 0 && text.substr(0, text.find_first_of("eE")).find_first_of("123456789") < text.size();
-    if (finite && (std::isinf(number) || tooSmall))
-        return {at, std::errc::result_out_of_range};
-    value = number;
-    return {at, std::errc()};
+    return cotan::realFromChars(first, last, value);
 }
 
 // General is printf's %g.

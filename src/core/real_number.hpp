@@ -10,6 +10,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/parse_number.hpp"
+
 namespace cotan {
 
 // Parses a real number that fills the whole text: no spaces; a '+' and "nan" and "inf" are accepted. A number too large
@@ -19,7 +21,7 @@ inline std::optional<double> parseReal(std::string_view text)
     if (text.starts_with('+'))
         text.remove_prefix(text.starts_with("+-") ? text.size() : 1);
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = fromChars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::invalid_argument || end != text.data() + text.size())
         return std::nullopt;
     if (error == std::errc())

@@ -1,9 +1,9 @@
 #include "cost/cards.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "compile.hpp"
+#include "core/parse_number.hpp"
 
 namespace cotan::cost {
 
@@ -50,9 +50,9 @@ bool readNumber(const std::string& cell, std::optional<double>& number)
     if (cell.empty())
         return true;
     double value = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    const bool read = parseNumber(cell, value);
     number = value;
-    return error == std::errc() && end == cell.data() + cell.size() && value >= 0 && value < 1e15;
+    return read && value >= 0 && value < 1e15;
 }
 
 StageCode* findStage(DeviceCode& gpu, std::string_view stage, std::string_view row)

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "compile.hpp"
+#include "core/parse_number.hpp"
 #include "files/sandbox/confine.hpp"
 #include "files/system/program.hpp"
 #include "files/system/system.hpp"
@@ -50,7 +51,7 @@ std::string digits(double value)
 double value(const std::string& text)
 {
     double number = 0;
-    std::from_chars(text.data(), text.data() + text.size(), number);
+    fromChars(text.data(), text.data() + text.size(), number);
     return number;
 }
 
