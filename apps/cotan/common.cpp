@@ -4,17 +4,11 @@
 #include <cstdio>
 #include <set>
 #include <sstream>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/try.hpp"
 #include "files/bytes.hpp"
-#include "files/file_registry.hpp"
-#include "files/output.hpp"
 #include "image/format_table.hpp"
 #include "terminal/printable.hpp"
-#include "terminal/progress_line.hpp"
 
 namespace cotan::app {
 

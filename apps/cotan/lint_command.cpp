@@ -13,7 +13,6 @@
 #include "lint_lines.hpp"
 #include "loading.hpp"
 #include "map_files/choose.hpp"
-#include "picture.hpp"
 #include "terminal/command_words.hpp"
 
 namespace cotan::app {

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "terminal/command_words.hpp"
-
 namespace cotan::app {
 
 std::vector<std::string> presetWords()

@@ -8,7 +8,6 @@
 #include "cotan/frame_choice.hpp"
 #include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
-#include "cotan/model.hpp"
 #include "inspect/angles.hpp"
 #include "loading.hpp"
 

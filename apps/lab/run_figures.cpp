@@ -1,8 +1,5 @@
 #include <algorithm>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "core/try.hpp"
 #include "figures/figures.hpp"
 #include "lab.hpp"

@@ -1,6 +1,5 @@
 #include "settings.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 

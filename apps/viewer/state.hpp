@@ -2,7 +2,6 @@
 // (render_thread.hpp); the window shows it.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,7 +9,6 @@
 #include <vector>
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/named_values.hpp"
 #include "cotan/inspect.hpp"

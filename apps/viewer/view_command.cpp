@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include <fmt/format.h>
-
 #include "commands.hpp"
 #include "core/try.hpp"
 #include "files.hpp"

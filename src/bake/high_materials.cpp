@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "bake/bake_kinds.hpp"
 #include "bake/surface/surface_triangle.hpp"

@@ -2,7 +2,6 @@
 #include "cotan/shader_text.hpp"
 
 #include "call.hpp"
-#include "cotan/convention.hpp"
 
 using namespace cotan;
 using namespace cotan::c;

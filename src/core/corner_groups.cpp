@@ -6,7 +6,6 @@
 
 #include "corner_lanes.hpp"
 #include "cotan/portable.hpp"
-#include "tangents_mesh.hpp"
 
 namespace cotan::tangents {
 

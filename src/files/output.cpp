@@ -6,15 +6,12 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/try.hpp"
-#include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "files/system/system.hpp"
 

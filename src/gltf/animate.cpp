@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

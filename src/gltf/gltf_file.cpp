@@ -4,11 +4,8 @@
 #include <array>
 #include <charconv>
 #include <limits>
-#include <map>
 #include <optional>
-#include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "core/locale_of_c.hpp"
 #include "core/one_line.hpp"

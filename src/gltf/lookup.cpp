@@ -3,9 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
-#include "cotan/portable.hpp"
 #include "gltf_model.hpp"
 #include "scene/geometry.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <optional>
 
 #include "core/loops.hpp"
 #include "core/one_line.hpp"

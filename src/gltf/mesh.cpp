@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <span>
-#include <utility>
 
 #include <glm/geometric.hpp>
 

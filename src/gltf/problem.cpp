@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/one_line.hpp"
-
 namespace cotan {
 
 void failGltfVersion1(const std::string& field)

@@ -1,9 +1,7 @@
 #include "gltf/json/views.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

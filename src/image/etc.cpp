@@ -1,7 +1,6 @@
 #include "image/etc.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include <glm/common.hpp>

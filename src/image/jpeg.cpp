@@ -4,7 +4,6 @@
 #include <climits>
 #include <cmath>
 #include <csetjmp>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <optional>
 
 #include <fmt/format.h>
 #include <glm/detail/type_half.hpp>

@@ -2,10 +2,8 @@
 #include "oiio.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 #include <exception>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>

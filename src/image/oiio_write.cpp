@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <system_error>
@@ -15,7 +14,6 @@
 
 #include "core/one_line.hpp"
 #include "core/try.hpp"
-#include "files/bytes.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"

@@ -2,9 +2,7 @@
 
 #include <bit>
 #include <csetjmp>
-#include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <string_view>
 #include <utility>

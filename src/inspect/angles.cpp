@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "cotan/vector.hpp"

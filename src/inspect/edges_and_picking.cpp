@@ -2,13 +2,10 @@
 #include "cotan/inspect.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <limits>
-#include <string_view>
 #include <unordered_map>
 
 #include <glm/geometric.hpp>

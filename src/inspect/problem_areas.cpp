@@ -1,7 +1,6 @@
 #include "cotan/inspect.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 

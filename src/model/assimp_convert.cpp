@@ -7,7 +7,6 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <vector>
 
 #include <assimp/ObjMaterial.h>
 #include <assimp/camera.h>

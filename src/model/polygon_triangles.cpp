@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 namespace cotan {
 

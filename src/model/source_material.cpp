@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "core/named_values.hpp"

@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <set>
 #include <type_traits>
-#include <utility>
 
 #include <fmt/format.h>
 

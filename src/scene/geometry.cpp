@@ -2,7 +2,6 @@
 #include "scene/geometry.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>

@@ -1,18 +1,14 @@
 #include "scene/parts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <type_traits>
 
 #include <glm/geometric.hpp>
 
-#include "cotan/portable.hpp"
 #include "cotan/vector.hpp"
 #include "cotan/view.hpp"
 #include "scene/geometry.hpp"

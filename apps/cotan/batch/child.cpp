@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <mutex>
-#include <new>
 
 #include "core/parse_number.hpp"
 #include "files/file_registry.hpp"

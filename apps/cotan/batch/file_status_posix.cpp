@@ -1,5 +1,3 @@
-#include <ctime>
-
 #include <sys/stat.h>
 
 #include "batch/record.hpp"

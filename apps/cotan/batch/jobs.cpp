@@ -1,7 +1,6 @@
 #include "batch/job.hpp"
 
 #include <algorithm>
-#include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>

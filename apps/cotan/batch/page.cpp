@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/named_values.hpp"
-#include "files/json.hpp"
 #include "html.hpp"
 #include "page_html.hpp" // kPage: batch/page.html
 

@@ -1,6 +1,5 @@
 #include "batch/record.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

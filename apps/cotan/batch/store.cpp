@@ -1,10 +1,7 @@
 #include "batch/store.hpp"
 
 #include <chrono>
-#include <cstdlib>
 #include <random>
-#include <string>
-#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>

@@ -11,7 +11,6 @@
 #include "core/try.hpp"
 #include "parse_errors.hpp"
 #include "terminal/command_words.hpp"
-#include "terminal/help_text.hpp"
 
 namespace cotan::app {
 

@@ -1,7 +1,6 @@
 #include "terminal/command_words.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

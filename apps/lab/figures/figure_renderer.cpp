@@ -1,7 +1,5 @@
 #include "figure_renderer.hpp"
 
-#include "cotan/render.hpp"
-
 namespace cotan::figures {
 
 void FigureRenderer::show(const Scene& scene)

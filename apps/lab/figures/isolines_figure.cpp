@@ -1,5 +1,4 @@
 // Lines of constant u and v on a sheared patch, with the tangents and the gradients.
-#include <algorithm>
 #include <cmath>
 #include <span>
 

@@ -3,7 +3,6 @@
 #include <iterator>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "figure.hpp"
 #include "stage.hpp"

@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "figure.hpp"

@@ -1,8 +1,6 @@
 // Rows of a table that collect measurements.
 #pragma once
 
-#include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "truth/tessellation.hpp"
 
-#include "cotan/tangents.hpp"
 #include "cotan/triangle.hpp"
 #include "truth/patch.hpp"
 

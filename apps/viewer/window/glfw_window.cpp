@@ -2,10 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <clocale>
-#include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <string_view>
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_vulkan.h>

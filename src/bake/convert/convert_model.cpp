@@ -10,7 +10,6 @@
 #include "bake/convert/map_jobs.hpp"
 #include "bake/surface/nearest_texels.hpp"
 #include "core/try.hpp"
-#include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
 #include "gltf/json/lookup.hpp"

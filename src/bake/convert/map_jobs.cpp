@@ -1,7 +1,6 @@
 #include "bake/convert/map_jobs.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <set>

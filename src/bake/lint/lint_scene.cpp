@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

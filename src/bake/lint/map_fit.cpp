@@ -1,13 +1,11 @@
 #include "bake/lint/map_fit.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "lint_parts.hpp"
-#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

@@ -1,7 +1,6 @@
 #include "bake/surface/low_surface.hpp"
 
 #include <array>
-#include <span>
 #include <string>
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,4 @@
 #include <csignal>
-#include <ctime>
 
 #include <unistd.h>
 

@@ -11,7 +11,6 @@
 #include "cotan/covector.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/vector.hpp"
-#include "scene/geometry.hpp"
 
 namespace cotan::reference {
 

@@ -1,10 +1,7 @@
 #include "pixel.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <span>
 #include <utility>
 
 #include <glm/geometric.hpp>
