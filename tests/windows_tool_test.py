@@ -219,7 +219,8 @@ def sameHere(release, folder, words, output=None, codeOnly=False):
     expected = subprocess.run([release.tool, *words], cwd=here, capture_output=True, check=False)
     same = there.returncode == expected.returncode
     if not codeOnly:
-        same = same and (there.stdout, there.stderr) == (expected.stdout, expected.stderr)
+        said = re.sub(rb"^wine: .*\n", b"", there.stderr, flags=re.MULTILINE)  # its own device process crashes at times
+        same = same and (there.stdout, said) == (expected.stdout, expected.stderr)
     expect(same, f"{words}: {there.returncode} {there.stdout.decode()}{there.stderr.decode()} here {expected.returncode} {expected.stdout.decode()}{expected.stderr.decode()}")
     if output:
         files = [place / output for place in (folder, here)]
