@@ -103,14 +103,20 @@ template<class V> [[gnu::always_inline]] inline void storeLanes(Values& values, 
 #endif
 
 #ifdef COTAN_EIGHT_LANES
+// Whether runLanes takes eight lanes: if the processor has them. A test sets it, to compare both.
+inline bool& eightLanes()
+{
+    static bool eight = __builtin_cpu_supports("avx2") != 0;
+    return eight;
+}
+
 template<class Kernel> [[gnu::target("avx2")]] void runEight(const Kernel& kernel) { kernel.template run<Eight>(); }
 #endif
 
 template<class Kernel> inline void runLanes(const Kernel& kernel)
 {
 #ifdef COTAN_EIGHT_LANES
-    static const bool eight = __builtin_cpu_supports("avx2") != 0;
-    if (eight)
+    if (eightLanes())
         return runEight(kernel);
 #endif
     kernel.template run<Four>();
