@@ -70,9 +70,9 @@ Status write(const std::filesystem::path& out, const MadeTexture& made, Converte
 Status writeTexture(const std::filesystem::path& out, const Image& map, const Convention& stored, const TexelCode& code,
                     const ConvertFileOptions& o, ConvertedFile& done)
 {
-    COTAN_TRY(made,
-              finishTexture(map, stored, code, code == TexelCode::rgba8 ? nullptr : &map,
-                            {.from = stored, .to = o.to, .file = out, .mips = o.mips}));
+    COTAN_TRY(
+        made,
+        wholeTexture(map, code, code != TexelCode::rgba8, {.from = stored, .to = o.to, .file = out, .mips = o.mips}));
     return write(out, *made, done);
 }
 

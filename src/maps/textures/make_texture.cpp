@@ -11,21 +11,6 @@
 
 namespace cotan::maps {
 
-Result<MadeTexture> makeTexture(Image map, const TextureSettings& s)
-{
-    COTAN_TRY(code, codeFor(s.compress, "auto", s.to, s.file, s.swizzle));
-    if ((s.from.kind == MapKind::objectSpace) != (s.to.kind == MapKind::objectSpace))
-        return about("options.to", usageError("expected a map of the same space; object space needs the mesh"));
-    if (s.from.channels != Channels::xyz)
-        unswizzle(map, swizzleOf(map));
-    const Convention taken = codeConvention(*code, s.to);
-    const PixelType type = *code == TexelCode::rgba8 ? PixelType::unorm8 : PixelType::float32;
-    RecodeCounts counts;
-    Image stored = recode(map, {.from = s.from, .to = taken, .type = type}, counts);
-    stored.frame = map.frame;
-    return finishTexture(stored, taken, *code, &map, s);
-}
-
 namespace {
 
 // Rows that fill blocks of 4, 5, 6 and 8 rows.
@@ -41,10 +26,34 @@ Image rowsOf(const Image& image, int first, int count)
     return rows;
 }
 
+// Calls add(rows) for all rows of an image, as many as the texture takes at once.
+template<class Add> Status addWhole(const TextureRows& texture, const Image& image, const Add& add)
+{
+    for (int y = 0; y < image.height; y += texture.rowsAtOnce())
+        COTAN_CHECK(add(rowsOf(image, y, std::min(texture.rowsAtOnce(), image.height - y))));
+    return Done{};
+}
+
 } // namespace
 
+Result<MadeTexture> makeTexture(Image map, const TextureSettings& s)
+{
+    COTAN_TRY(code, codeFor(s.compress, "auto", s.to, s.file, s.swizzle));
+    if ((s.from.kind == MapKind::objectSpace) != (s.to.kind == MapKind::objectSpace))
+        return about("options.to", usageError("expected a map of the same space; object space needs the mesh"));
+    if (s.from.channels != Channels::xyz)
+        unswizzle(map, swizzleOf(map));
+    const Convention taken = codeConvention(*code, s.to);
+    TextureRows texture(map.width, map.height, *code, taken, s);
+    COTAN_CHECK(addWhole(texture, map, [&](const Image& rows) {
+        RecodeCounts counts;
+        return texture.add(recode(rows, {.from = s.from, .to = taken, .type = typeOf(*code)}, counts), &rows);
+    }));
+    return texture.finish(map.frame);
+}
+
 TextureRows::TextureRows(int width, int height, const TexelCode& code, const Convention& taken, TextureSettings s)
-    : code_(code), taken_(taken), settings_(std::move(s)),
+    : code_(code), settings_(std::move(s)),
       mips_(width, height, {.from = taken, .to = codeConvention(code, settings_.to), .type = typeOf(code)},
             code.holdsRoughness())
 {
@@ -118,15 +127,11 @@ MadeTexture TextureRows::finish(const std::string& frame)
     return made;
 }
 
-Result<MadeTexture> finishTexture(const Image& image, const Convention& taken, const TexelCode& code, const Image* map,
-                                  const TextureSettings& s)
+Result<MadeTexture> wholeTexture(const Image& image, const TexelCode& code, bool compared, const TextureSettings& s)
 {
-    TextureRows texture(image.width, image.height, code, taken, s);
-    for (int y = 0; y < image.height; y += texture.rowsAtOnce()) {
-        const int count = std::min(texture.rowsAtOnce(), image.height - y);
-        const Image rows = rowsOf(image, y, count), compared = map ? rowsOf(*map, y, count) : Image{};
-        COTAN_CHECK(texture.add(rows, map ? &compared : nullptr));
-    }
+    TextureRows texture(image.width, image.height, code, s.from, s);
+    COTAN_CHECK(
+        addWhole(texture, image, [&](const Image& rows) { return texture.add(rows, compared ? &rows : nullptr); }));
     return texture.finish(image.frame);
 }
 

@@ -55,7 +55,6 @@ private:
     Status encodeWaiting(Level& level, PixelType type);
 
     TexelCode code_;
-    Convention taken_;
     TextureSettings settings_;
     std::vector<Level> levels_{};
     MipRows mips_;
@@ -63,9 +62,9 @@ private:
     bool compared_ = false;
 };
 
-// Makes a texture of a whole image: the rows of TextureRows.
-Result<MadeTexture> finishTexture(const Image& image, const Convention& taken, const TexelCode& code, const Image* map,
-                                  const TextureSettings& settings);
+// Makes a texture of a whole image in settings.from, a codeConvention. compared: measures the cost. Errors: as levelOf.
+Result<MadeTexture> wholeTexture(const Image& image, const TexelCode& code, bool compared,
+                                 const TextureSettings& settings);
 
 // How a model can hold blocks: the words of --compress that an extension of glTF names, and that extension.
 std::vector<std::string> modelCompressionWords();
