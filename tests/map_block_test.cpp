@@ -1,4 +1,4 @@
-// BC5 and BC4, decoded by the definition of their blocks, and BC7, decoded by OpenImageIO.
+// BC5, BC4 and EAC, decoded by the definition of their blocks, and BC7, decoded by OpenImageIO.
 #include "maps/blocks/block.hpp"
 
 #include <algorithm>
@@ -17,6 +17,8 @@
 #include "core/loops.hpp"
 #include "cotan/image.hpp"
 #include "image/dds.hpp"
+#include "image/etc.hpp"
+#include "maps/blocks/block_texels.hpp"
 
 namespace cotan::maps {
 
@@ -396,6 +398,99 @@ TEST(Block, oneChannelIsKeptWithinHalfAStep)
     for (int i = 0; i < 16; ++i)
         EXPECT_NEAR(back[std::size_t(i)], i + 40, 15.0 / 7 / 2 + 0.1) << i;
 }
+
+// ---- EAC ----
+
+// The eight codes of a channel of EAC with 11 bits: Khronos Data Format 1.3, section 21.5.
+std::array<int, 8> eacCodes(int base, int factor, int table)
+{
+    std::array<int, 8> codes{};
+    for (std::size_t k = 0; k < 8; ++k)
+        codes[k] =
+            std::clamp(8 * base + 4 + kEacModifiers[std::size_t(table)][k] * (factor > 0 ? 8 * factor : 1), 0, 2047);
+    return codes;
+}
+
+// Sum of the squared differences of the closest codes.
+double squaresTo(const std::array<int, 8>& codes, const Half& values)
+{
+    double sum = 0;
+    for (const double value : values) {
+        double least = 1e30;
+        for (const int code : codes)
+            least = std::min(least, (code - value) * (code - value));
+        sum += least;
+    }
+    return sum;
+}
+
+double leastOfAllEacBlocks(const Half& values)
+{
+    double least = 1e30;
+    for (int table = 0; table < 16; ++table)
+        for (int factor = 0; factor < 16; ++factor)
+            for (int base = 0; base < 256; ++base)
+                least = std::min(least, squaresTo(eacCodes(base, factor, table), values));
+    return least;
+}
+
+TEST(Eac, levelsAreNearlyThoseOfTheBestBlockForEachRange)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (const double range : {0.0, 12.0, 28.0, 45.0, 75.0, 120.0, 180.0, 250.0, 340.0, 500.0, 690.0, 1000.0, 2000.0}) {
+        constexpr int kBlocks = 3;
+        double ours = 0, best = 0;
+        for (int block = 0; block < kBlocks; ++block) {
+            const double low = (2047 - range) * unit(random);
+            Half values{};
+            Image image = makeImage(4, 4, PixelType::float32);
+            for (std::size_t i = 0; i < 16; ++i) { // denser in the middle, as in maps
+                values[i] = low + range * (unit(random) + unit(random)) / 2;
+                image.floats()[4 * i] = float(values[i] / 2047);
+            }
+            const auto bytes = encodeEacR11(image);
+            ASSERT_EQ(bytes.size(), 8u);
+            std::uint64_t bits = 0;
+            for (const std::byte byte : bytes)
+                bits = bits << 8 | std::to_integer<std::uint64_t>(byte);
+            const auto codes = eacCodes(int(bits >> 56), int(bits >> 52 & 15), int(bits >> 48 & 15));
+            double stored = 0;
+            for (std::size_t i = 0; i < 16; ++i) { // texels are numbered by columns
+                const double off = codes[bits >> (45 - 3 * (i % 4 * 4 + i / 4)) & 7] - values[i];
+                stored += off * off;
+            }
+            EXPECT_NEAR(stored, squaresTo(codes, values), 0.1) << "the closest codes are stored";
+            ours += stored;
+            best += leastOfAllEacBlocks(values);
+        }
+        EXPECT_LT(ours, 1.25 * best + 1) << range;
+    }
+}
+
+#ifdef COTAN_EIGHT_LANES
+TEST(Block, fourAndEightLanesGiveTheSameBytes)
+{
+    if (!eightLanes())
+        GTEST_SKIP() << "this processor has no AVX2";
+    std::mt19937 random(13);
+    std::vector<glm::dvec3> normals;
+    for (int block = 0; block < 64; ++block)
+        for (const glm::dvec3& n : tilted(block, block < 32 ? 0.02 : 0.4, random))
+            normals.push_back(n);
+    const Image image = blockOf(normals, 32);
+    const CodeScale eleven{1023.5f, 1023.5f};
+    const auto all = [&] {
+        return std::array{encodeBc5(image, {}),   encodeBc3(image, {}),         encodeBc7(image, {}), encodeBc4(image),
+                          encodeUastc(image, {}), encodeEacRg11(image, eleven), encodeEacR11(image)};
+    };
+    const auto eight = all();
+    eightLanes() = false;
+    const auto four = all();
+    eightLanes() = true;
+    EXPECT_EQ(four, eight);
+}
+#endif
 
 } // namespace
 } // namespace cotan::maps

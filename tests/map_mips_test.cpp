@@ -1,13 +1,17 @@
 // Mip chains: directions are means of vectors, roughness is the variance of normals that averaging loses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "cotan/maps.hpp"
 #include "cotan/scene.hpp"
+#include "maps/mip_rows.hpp"
 #include "maps/texels.hpp"
 #include "quantisation.hpp"
 
@@ -37,6 +41,45 @@ TEST(Mips, halve_down_to_one_texel_also_for_odd_sizes)
         EXPECT_EQ(chain[i].normals.height, sizes[i][1]);
     }
     EXPECT_EQ(mipChain(tilted(1, 1, 10), {.from = kSigned, .to = kSigned}).size(), 1u);
+}
+
+TEST(Mips, rows_that_arrive_one_after_another_have_the_levels_of_the_chain)
+{
+    const Image relief = makeReliefMap(Relief::bricks, 96);
+    for (const auto& [width, height] : {std::pair(96, 96), std::pair(37, 53), std::pair(1, 9), std::pair(13, 1)})
+        for (const PixelType type : {PixelType::unorm8, PixelType::float32})
+            for (const int atOnce : {1, 7, 64}) {
+                const auto rowsOf = [&, width = width](int first, int count) {
+                    Image rows = makeImage(width, count, relief.type);
+                    for (int y = 0; y < count; ++y)
+                        std::copy_n(relief.bytes8() + 4 * 96 * (first + y), 4 * width, rows.bytes8() + 4 * width * y);
+                    return rows;
+                };
+                const MipSettings settings{.type = type};
+                const auto chain = mipChain(rowsOf(0, height), settings);
+                std::vector<std::vector<std::byte>> levels(chain.size());
+                MipRows mips(width, height, settings, /*averagesAlpha*/ true);
+                for (int y = 0; y < height; y += atOnce)
+                    mips.add(rowsOf(y, std::min(atOnce, height - y)), [&](std::size_t level, const Image& rows) {
+                        levels[level].insert(levels[level].end(), rows.data.begin(), rows.data.end());
+                    });
+                for (std::size_t i = 1; i < chain.size(); ++i)
+                    EXPECT_EQ(levels[i], chain[i].normals.data) << width << " x " << height << ", " << i;
+            }
+}
+
+TEST(Mips, alpha_is_the_mean_of_four_texels)
+{
+    Image map = makeImage(4, 2, PixelType::float32);
+    for (int i = 0; i < 8; ++i)
+        map.floats()[4 * i + 3] = float(i) / 8;
+    std::vector<float> alphas;
+    MipRows mips(4, 2, {.type = PixelType::float32}, /*averagesAlpha*/ true);
+    mips.add(map, [&](std::size_t, const Image& rows) {
+        for (std::size_t i = 0; i < rows.pixelCount(); ++i)
+            alphas.push_back(rows.floats()[4 * i + 3]);
+    });
+    EXPECT_EQ(alphas, (std::vector<float>{2.5f / 8, 4.5f / 8, 3.5f / 8}));
 }
 
 TEST(Mips, opposite_tilts_average_to_flat_with_length_cosine)

@@ -2,28 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <glm/geometric.hpp>
 
+#include "maps/mip_rows.hpp"
 #include "maps/texels.hpp"
 
 namespace cotan::maps {
 
+using Moments = MipMoments;
+
 namespace {
-
-// Means over a footprint. `coverage`: fraction of the footprint that has a direction.
-struct Moments {
-    glm::vec3 normal{0};
-    float coverage = 0;
-    float bx = 0, by = 0, bb = 0; // slopes and the sum of their squares
-
-    void add(const Moments& o, float weight)
-    {
-        normal += o.normal * weight;
-        coverage += o.coverage * weight;
-        bx += o.bx * weight, by += o.by * weight, bb += o.bb * weight;
-    }
-};
 
 struct Level {
     int width = 0, height = 0;
@@ -66,6 +56,18 @@ Footprint footprint(int i, int size, int larger)
     return f;
 }
 
+// Adds a row of the larger level to one of the smaller level.
+void addRow(std::span<const Moments> row, float weight, std::span<Moments> to)
+{
+    for (std::size_t x = 0; x < to.size(); ++x) {
+        const Footprint across = footprint(int(x), int(to.size()), int(row.size()));
+        for (int fx = across.first; fx <= across.last; ++fx)
+            to[x].add(row[std::size_t(fx)], across.weight(fx) * weight);
+    }
+}
+
+glm::vec3 meanOf(const Moments& m) { return m.coverage > 0 ? m.normal / m.coverage : glm::vec3(0); }
+
 // rowOf(y, row): fills `row` with the moments of row y of the larger level.
 template<class RowOf> Level smaller(int width, int height, RowOf rowOf)
 {
@@ -77,12 +79,8 @@ template<class RowOf> Level smaller(int width, int height, RowOf rowOf)
             const Footprint down = footprint(y, level.height, height);
             for (int fy = down.first; fy <= down.last; ++fy) {
                 rowOf(fy, row);
-                for (int x = 0; x < level.width; ++x) {
-                    const Footprint across = footprint(x, level.width, width);
-                    Moments& sum = level.texels[std::size_t(y) * std::size_t(level.width) + std::size_t(x)];
-                    for (int fx = across.first; fx <= across.last; ++fx)
-                        sum.add(row[std::size_t(fx)], across.weight(fx) * down.weight(fy));
-                }
+                addRow(row, down.weight(fy),
+                       {level.texels.begin() + std::ptrdiff_t(y) * level.width, std::size_t(level.width)});
             }
         }
     });
@@ -111,7 +109,7 @@ template<class RowOf> MipLevel encoded(int width, int height, const MipSettings&
             rowOf(y, row);
             for (std::size_t x = 0; x < row.size(); ++x) {
                 const Moments& m = row[x];
-                const glm::vec3 mean = m.coverage > 0 ? m.normal / m.coverage : glm::vec3(0);
+                const glm::vec3 mean = meanOf(m);
                 normals[x] = encodeTexel(mean, s.to, s.type, s.keepLengths);
                 const double r = roughnessOf(m, s);
                 rough[x] = glm::vec4(float(r), float(r), float(r), 1);
@@ -170,6 +168,95 @@ std::vector<MipLevel> mipChain(const Image& map, const MipSettings& settings)
         chain.push_back(encoded(level.width, level.height, settings, rowsOf(level)));
     }
     return chain;
+}
+
+MipRows::MipRows(int width, int height, const MipSettings& settings, bool averagesAlpha)
+    : settings_(settings), averagesAlpha_(averagesAlpha)
+{
+    levels_.push_back({width, height});
+    while (levels_.back().width > 1 || levels_.back().height > 1)
+        levels_.push_back({std::max(1, levels_.back().width / 2), std::max(1, levels_.back().height / 2)});
+}
+
+void MipRows::add(const Image& rows, const Take& take)
+{
+    std::vector<Moments>& moments = levels_[0].moments;
+    std::vector<float>& alphas = levels_[0].alphas;
+    const std::size_t width = std::size_t(rows.width), start = moments.size();
+    moments.resize(start + rows.pixelCount());
+    alphas.resize(averagesAlpha_ ? moments.size() : 0);
+    forRowBands(rows.height, [&](int first, int last) {
+        std::vector<glm::vec3> normals(width);
+        std::vector<glm::vec4> texels(width);
+        for (int y = first; y < last; ++y) {
+            const std::size_t at = start + std::size_t(y) * width;
+            decodeRow(rows, y, settings_.from, normals);
+            std::ranges::transform(normals, moments.begin() + std::ptrdiff_t(at), momentsOf);
+            if (!averagesAlpha_)
+                continue;
+            loadRow(rows, y, texels);
+            std::ranges::transform(texels, alphas.begin() + std::ptrdiff_t(at), &glm::vec4::w);
+        }
+    });
+    for (std::size_t i = 1; i < levels_.size(); ++i)
+        makeRows(i, take);
+}
+
+void MipRows::makeRows(std::size_t i, const Take& take)
+{
+    Level &larger = levels_[i - 1], &level = levels_[i];
+    const std::size_t from = std::size_t(larger.width), width = std::size_t(level.width);
+    const int end = larger.first + int(larger.moments.size() / from), first = level.next;
+    while (level.next < level.height && footprint(level.next, level.height, larger.height).last < end)
+        ++level.next;
+    if (level.next == first)
+        return;
+    Image rows = makeImage(level.width, level.next - first, settings_.type);
+    const std::size_t start = level.moments.size();
+    level.moments.resize(start + rows.pixelCount());
+    level.alphas.resize(averagesAlpha_ ? level.moments.size() : 0);
+    forRowBands(rows.height, [&](int firstRow, int lastRow) {
+        std::vector<glm::vec4> texels(width);
+        for (int y = firstRow; y < lastRow; ++y) {
+            const std::size_t at = start + std::size_t(y) * width;
+            const std::span<Moments> sums(&level.moments[at], width);
+            const Footprint down = footprint(first + y, level.height, larger.height);
+            for (int fy = down.first; fy <= down.last; ++fy)
+                addRow({&larger.moments[std::size_t(fy - larger.first) * from], from}, down.weight(fy), sums);
+            for (std::size_t x = 0; x < width; ++x) {
+                texels[x] = encodeTexel(meanOf(sums[x]), settings_.to, settings_.type, settings_.keepLengths);
+                if (averagesAlpha_)
+                    texels[x].w = larger.meanAlpha(int(x), first + y);
+            }
+            storeRow(rows, y, texels);
+            if (!averagesAlpha_)
+                continue;
+            loadRow(rows, y, texels);
+            std::ranges::transform(texels, level.alphas.begin() + std::ptrdiff_t(at), &glm::vec4::w);
+        }
+    });
+    larger.keepFrom(level.next < level.height ? footprint(level.next, level.height, larger.height).first : end);
+    take(i, std::move(rows));
+}
+
+float MipRows::Level::meanAlpha(int x, int y) const
+{
+    const int across = std::min(width, 2), down = std::min(height, 2);
+    float sum = 0;
+    for (int k = 0; k < down; ++k)
+        for (int i = 0; i < across; ++i)
+            sum += alphas[std::size_t(2 * y + k - first) * std::size_t(width) + std::size_t(2 * x + i)]
+                / float(across * down);
+    return sum;
+}
+
+void MipRows::Level::keepFrom(int row)
+{
+    const std::ptrdiff_t count = std::ptrdiff_t(row - first) * width;
+    moments.erase(moments.begin(), moments.begin() + count);
+    if (!alphas.empty())
+        alphas.erase(alphas.begin(), alphas.begin() + count);
+    first = row;
 }
 
 } // namespace cotan::maps

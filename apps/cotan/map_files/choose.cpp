@@ -73,20 +73,15 @@ Image sampleOf(const Image& map, int square = 24, int left = 0, int top = 0)
     return sample;
 }
 
-// A level in a format, with what it costs.
-struct TriedLevel {
-    TriedFormat format;
-    TextureLevel level;
-};
-
 // texels: what is stored; map: what it is compared with, in the convention `read`. to: how the texture is read.
-Result<TriedLevel> tryFormat(const std::string& word, const TexelCode& code, const Image& texels, const Image& map,
-                             const Convention& read, const Convention& to)
+Result<TriedFormat> tryFormat(const std::string& word, const TexelCode& code, const Image& texels, const Image& map,
+                              const Convention& read, const Convention& to)
 {
     COTAN_TRY(level, levelOf(texels, code, to));
-    const std::string bytes = textureBytes("map.ktx2", code, {*level});
-    COTAN_TRY(cost, costOf(map, read, std::as_bytes(std::span(bytes)), storedConvention(code, to)));
-    return TriedLevel{{word, bitsPerTexel(code), cost->mean, cost->percentile99}, *std::move(level)};
+    ValueStatistics degrees;
+    COTAN_CHECK(addCosts(map, read, *level, code, to, "map.ktx2", degrees));
+    const TextureCost cost = costOf(degrees);
+    return TriedFormat{word, bitsPerTexel(code), cost.mean, cost.percentile99};
 }
 
 } // namespace
@@ -110,8 +105,7 @@ Result<TriedFormat> costOfFormat(const Image& image, const Convention& conventio
     RecodeCounts counts;
     const Convention taken = codeConvention(*code, to);
     const Image given = recode(image, {.from = convention, .to = taken, .type = PixelType::float32}, counts);
-    COTAN_TRY(tried, tryFormat(word, *code, given, given, taken, to));
-    return tried->format;
+    return tryFormat(word, *code, given, given, taken, to);
 }
 
 } // namespace
@@ -164,14 +158,13 @@ Result<ChosenFormat> chooseFormat(const Image& map, const Convention& to, const 
             pixels = recode(map, {.from = stored, .to = to, .type = PixelType::unorm8, .dither = dither}, counts);
         COTAN_TRY(tried,
                   tryFormat(candidate.word, candidate.code, pixels.data.empty() ? map : pixels, map, stored, to));
-        const TriedFormat& cost = chosen.tried.emplace_back(tried->format);
+        const TriedFormat& cost = chosen.tried.emplace_back(*tried);
         if (cost.meanDegrees > budget.limits.mean || cost.percentile99 > budget.limits.percentile99
             || (best && cost.meanDegrees >= best->meanDegrees))
             continue;
         best = cost;
         chosen.compress = candidate.word;
         chosen.code = candidate.code;
-        chosen.level = std::move(tried->level);
     }
     if (best)
         return chosen;

@@ -31,7 +31,6 @@ Json toJson(const TriedFormat& format);
 struct ChosenFormat {
     std::string compress; // the word of --compress
     maps::TexelCode code;
-    maps::TextureLevel level;
     std::vector<TriedFormat> tried; // the smallest first
 };
 

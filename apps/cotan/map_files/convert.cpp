@@ -60,15 +60,20 @@ Result<Image> convertWhole(const std::filesystem::path& file, const RecodeSettin
     return converted;
 }
 
-// Writes a texture. map: in `stored`. first: its largest level.
-Status writeTexture(const std::filesystem::path& out, const Image& map, const Convention& stored, const TexelCode& code,
-                    const ConvertFileOptions& o, TextureLevel first, ConvertedFile& done)
+Status write(const std::filesystem::path& out, const MadeTexture& made, ConvertedFile& done)
 {
-    COTAN_TRY(made,
-              finishTexture(map, stored, code, std::move(first), code == TexelCode::rgba8 ? nullptr : &map,
-                            {.from = stored, .to = o.to, .file = out, .mips = o.mips}));
-    done.cost = made->cost;
-    return writeFileWhole(out, {reinterpret_cast<const char*>(made->bytes.data()), made->bytes.size()});
+    done.cost = made.cost;
+    return writeFileWhole(out, {reinterpret_cast<const char*>(made.bytes.data()), made.bytes.size()});
+}
+
+// Writes a texture of a whole map, in `stored`.
+Status writeTexture(const std::filesystem::path& out, const Image& map, const Convention& stored, const TexelCode& code,
+                    const ConvertFileOptions& o, ConvertedFile& done)
+{
+    COTAN_TRY(
+        made,
+        wholeTexture(map, code, code != TexelCode::rgba8, {.from = stored, .to = o.to, .file = out, .mips = o.mips}));
+    return write(out, *made, done);
 }
 
 // Writes the texture that fits the budget. map: as chooseFormat takes it.
@@ -79,7 +84,38 @@ Status writeChosen(const std::filesystem::path& out, const Image& map, const Con
     done.compress = chosen->compress;
     done.tried = chosen->tried;
     done.to = storedConvention(chosen->code, o.to);
-    return writeTexture(out, map, stored, chosen->code, o, std::move(chosen->level), done);
+    if (chosen->code != TexelCode::rgba8)
+        return writeTexture(out, map, stored, chosen->code, o, done);
+    RecodeCounts counts;
+    Image pixels = recode(map, {.from = stored, .to = o.to, .dither = o.dither}, counts);
+    pixels.frame = map.frame;
+    return writeTexture(out, pixels, o.to, chosen->code, o, done);
+}
+
+// Converts an image strip by strip to a texture.
+Status convertToTexture(const OpenMap& map, const std::filesystem::path& out, const RecodeSettings& settings,
+                        const TexelCode& code, const ConvertFileOptions& o, const FileOptions& files,
+                        ConvertedFile& done)
+{
+    RowReader& in = *map.rows;
+    TextureRows texture(in.width, in.height, code, settings.to,
+                        {.from = settings.to, .to = o.to, .file = out, .mips = o.mips});
+    const int atOnce = texture.rowsAtOnce();
+    CountedSteps steps(files.progress, std::size_t((in.height - 1) / atOnce + 1));
+    for (RecodeSettings here = settings; here.firstRow < in.height; here.firstRow += atOnce) {
+        Image strip = makeImage(in.width, std::min(atOnce, in.height - here.firstRow), in.type, in.name);
+        COTAN_CHECK(in.read(strip));
+        map.put(strip, here.firstRow);
+        RecodeCounts found;
+        const Image rows = recode(strip, here, found);
+        COTAN_CHECK(texture.add(rows, code == TexelCode::rgba8 ? nullptr : &rows));
+        done.counts.invalid += found.invalid;
+        done.counts.clamped += found.clamped;
+        if (!steps.step())
+            return stoppedError();
+    }
+    addNote(map.note(), done.notes);
+    return write(out, texture.finish(done.frame), done);
 }
 
 // Image::frame of the result: in tangent space that of the mesh, else that of the map; in object space none.
@@ -150,8 +186,9 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
     ConvertedFile done{
         in.width,  in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention, storedConvention(*code, o.to),
         o.compress};
-    if (!o.mesh && !isTextureFile(out)) {
-        const Status streamed = convertByRows(*opened, out, settings, code->swizzle, files, done);
+    if (!o.mesh && !o.budget) {
+        const Status streamed = isTextureFile(out) ? convertToTexture(*opened, out, settings, *code, o, files, done)
+                                                   : convertByRows(*opened, out, settings, code->swizzle, files, done);
         return streamed ? Result<ConvertedFile>(done) : streamed.error();
     }
     COTAN_TRY(converted,
@@ -162,8 +199,7 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
         return written ? Result<ConvertedFile>(done) : written.error();
     }
     if (isTextureFile(out)) {
-        COTAN_TRY(first, levelOf(*converted, *code, o.to));
-        const Status written = writeTexture(out, *converted, to, *code, o, *std::move(first), done);
+        const Status written = writeTexture(out, *converted, to, *code, o, done);
         return written ? Result<ConvertedFile>(done) : written.error();
     }
     swizzle(*converted, code->swizzle);

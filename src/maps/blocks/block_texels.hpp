@@ -30,17 +30,19 @@ using Values = std::array<Four, 4>;
 inline float& at(Values& values, std::size_t i) { return reinterpret_cast<float*>(values.data())[i]; }
 inline float at(const Values& values, std::size_t i) { return values[i / 4][i % 4]; }
 
-inline Four maxOf(Four a, Four b) { return a > b ? a : b; }
-inline Four minOf(Four a, Four b) { return a < b ? a : b; }
+template<class V> [[gnu::always_inline]] inline V maxOf(V a, V b) { return a > b ? a : b; }
+template<class V> [[gnu::always_inline]] inline V minOf(V a, V b) { return a < b ? a : b; }
 inline float maxOf(Four f) { return std::max(std::max(f[0], f[1]), std::max(f[2], f[3])); }
 inline float minOf(Four f) { return std::min(std::min(f[0], f[1]), std::min(f[2], f[3])); }
 inline float maxOf(const Values& v) { return maxOf(maxOf(maxOf(v[0], v[1]), maxOf(v[2], v[3]))); }
 inline float minOf(const Values& v) { return minOf(minOf(minOf(v[0], v[1]), minOf(v[2], v[3]))); }
 inline float sumOf(Four f) { return (f[0] + f[1]) + (f[2] + f[3]); }
 
-inline Four rootOf(Four f)
+template<class V> [[gnu::always_inline]] inline V rootOf(V f)
 {
-    const Four root{std::sqrt(f[0]), std::sqrt(f[1]), std::sqrt(f[2]), std::sqrt(f[3])};
+    V root;
+    for (std::size_t k = 0; k < sizeof(V) / sizeof(float); ++k)
+        root[k] = std::sqrt(f[k]);
     return root;
 }
 
@@ -101,14 +103,20 @@ template<class V> [[gnu::always_inline]] inline void storeLanes(Values& values, 
 #endif
 
 #ifdef COTAN_EIGHT_LANES
+// Whether runLanes takes eight lanes: if the processor has them. A test sets it, to compare both.
+inline bool& eightLanes()
+{
+    static bool eight = __builtin_cpu_supports("avx2") != 0;
+    return eight;
+}
+
 template<class Kernel> [[gnu::target("avx2")]] void runEight(const Kernel& kernel) { kernel.template run<Eight>(); }
 #endif
 
 template<class Kernel> inline void runLanes(const Kernel& kernel)
 {
 #ifdef COTAN_EIGHT_LANES
-    static const bool eight = __builtin_cpu_supports("avx2") != 0;
-    if (eight)
+    if (eightLanes())
         return runEight(kernel);
 #endif
     kernel.template run<Four>();
@@ -123,15 +131,21 @@ inline const float* texelAt(const Image& map, int left, int top, int i)
 
 // Red and green of a block as codes. none: the code of a stored 0. one: the difference to that of a stored 1. most: the
 // highest code.
-inline void loadCodes(const Image& map, int left, int top, float none, float one, float most, Values& x, Values& y)
+template<class V = Four>
+[[gnu::always_inline]] inline void loadCodes(const Image& map, int left, int top, float none, float one, float most,
+                                             Values& x, Values& y)
 {
-    for (std::size_t i = 0; i < 4; ++i) {
-        std::array<const float*, 4> t;
-        for (int k = 0; k < 4; ++k)
-            t[std::size_t(k)] = texelAt(map, left, top, 4 * int(i) + k);
-        const Four red{t[0][0], t[1][0], t[2][0], t[3][0]}, green{t[0][1], t[1][1], t[2][1], t[3][1]};
-        x[i] = minOf(maxOf(none + red * one, kZero), kZero + most);
-        y[i] = minOf(maxOf(none + green * one, kZero), kZero + most);
+    constexpr std::size_t kWidth = sizeof(V) / sizeof(float);
+    const V zero{};
+    for (std::size_t first = 0; first < 16; first += kWidth) {
+        V red, green;
+        for (std::size_t k = 0; k < kWidth; ++k) {
+            const float* const texel = texelAt(map, left, top, int(first + k));
+            red[k] = texel[0];
+            green[k] = texel[1];
+        }
+        storeLanes(x, first, minOf(maxOf(none + red * one, zero), zero + most));
+        storeLanes(y, first, minOf(maxOf(none + green * one, zero), zero + most));
     }
 }
 
@@ -141,20 +155,22 @@ struct NormalTexels {
     Values x, y, u, v, weightX, weightY;
 };
 
-inline NormalTexels normalTexels(const Image& map, int left, int top, const CodeScale& scale, float most = 255)
+template<class V = Four>
+[[gnu::always_inline]] inline NormalTexels normalTexels(const Image& map, int left, int top, const CodeScale& scale,
+                                                        float most = 255)
 {
     constexpr float kMinZ = 0.08f; // near the horizon the angle grows with the square root of the change
-    NormalTexels t{};
-    loadCodes(map, left, top, scale.zero - scale.unit, 2 * scale.unit, most, t.x, t.y);
+    NormalTexels t;
+    loadCodes<V>(map, left, top, scale.zero - scale.unit, 2 * scale.unit, most, t.x, t.y);
     const float inverse = 1 / scale.unit;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Four nx = (t.x[i] - scale.zero) * inverse, ny = (t.y[i] - scale.zero) * inverse;
-        const Four square = maxOf(1 - nx * nx - ny * ny, kZero + kMinZ * kMinZ);
-        const Four z = rootOf(square);
-        t.u[i] = nx / z;
-        t.v[i] = ny / z;
-        t.weightX[i] = 1 + t.u[i] * t.u[i];
-        t.weightY[i] = 1 + t.v[i] * t.v[i];
+    for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
+        const V nx = (lanesOf<V>(t.x, first) - scale.zero) * inverse,
+                ny = (lanesOf<V>(t.y, first) - scale.zero) * inverse;
+        const V z = rootOf(maxOf(1 - nx * nx - ny * ny, V{} + kMinZ * kMinZ)), u = nx / z, v = ny / z;
+        storeLanes(t.u, first, u);
+        storeLanes(t.v, first, v);
+        storeLanes(t.weightX, first, 1 + u * u);
+        storeLanes(t.weightY, first, 1 + v * v);
     }
     return t;
 }

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <utility>
+#include <cstring>
 
 #include "block.hpp"
 #include "block_texels.hpp"
@@ -16,228 +15,275 @@ constexpr float kHighestCode = 2047; // codes have 11 bits
 
 // One channel of a block: codes 8 base + 4 + modifier * step, where step is 8 * factor, or 1 for factor 0.
 struct Levels {
-    int table = 0, base = 0, factor = 1;
-
-    float code(std::size_t i) const
-    {
-        const int step = factor > 0 ? 8 * factor : 1;
-        return std::clamp(float(8 * base + 4 + kEacModifiers[std::size_t(table)][i] * step), 0.0f, kHighestCode);
-    }
+    int table, base, factor;
 };
 
-// The modifiers of a table are symmetric: m and -m - 1. So a texel's distance from the centre, in steps, is compared
-// with four of them: the larger ones plus a half. Of eight tables, or eight times of one.
-using Modifiers = std::array<CandidateValues, 4>;
+template<class V> [[gnu::always_inline]] inline V stepOf(V factor) { return maxOf(8 * factor, V{} + 1); }
 
-struct ModifierTables {
-    std::array<Modifiers, 2> all{};  // tables 0 to 7, 8 to 15
-    std::array<Modifiers, 16> one{}; // eight times
+// Vectors of two bytes a lane, as long as V, and half as long.
+template<class V> struct LaneShorts {
+    using Type __attribute__((vector_size(sizeof(V)))) = std::uint16_t;
+    using Half __attribute__((vector_size(sizeof(V) / 2))) = std::uint16_t;
 };
 
-constexpr ModifierTables kModifierTables = [] {
-    ModifierTables tables;
-    for (std::size_t t = 0; t < 16; ++t)
-        for (std::size_t i = 0; i < 4; ++i) {
-            tables.all[t / 8][i][t % 8] = float(kEacModifiers[t][i + 4]) + 0.5f;
-            tables.one[t][i].fill(float(kEacModifiers[t][i + 4]) + 0.5f);
+// Squared distances to the nearest level of each of the 16 tables, in 64ths of a squared step: a row for each sixteenth
+// of a step between a value and the centre. The modifiers of a table are symmetric, m and -m - 1, so values on both
+// sides of the centre share the rows. The sum of 16 distances has 16 bits.
+constexpr std::size_t kParts = 16, kRows = 24 * kParts;
+using SquaresRow = std::array<std::uint16_t, 16>;
+
+constexpr std::array<SquaresRow, kRows> kSquares = [] {
+    std::array<SquaresRow, kRows> rows{};
+    for (std::size_t row = 0; row < kRows; ++row)
+        for (std::size_t table = 0; table < 16; ++table) {
+            float least = 4095.0f / 64;
+            for (std::size_t i = 4; i < 8; ++i) {
+                const float off = (float(row) + 0.5f) / kParts - float(kEacModifiers[table][i]) - 0.5f;
+                least = std::min(least, off * off);
+            }
+            rows[row][table] = std::uint16_t(64 * least + 0.5f);
         }
-    return tables;
+    return rows;
 }();
 
-// Eight candidates.
-struct LevelsList {
-    CandidateValues base, factor;
-    const Modifiers& modifiers;
-
-    // The levels of the tables whose ends lie at the ends of the values.
-    static LevelsList spanning(const Modifiers& tables, float low, float high)
-    {
-        LevelsList list{{}, {}, tables};
-        for (std::size_t k = 0; k < kCandidates; ++k) {
-            const float range = 16 * tables[3][k];
-            list.factor[k] = std::min(float(int((high - low) / range + 0.5f)), 15.0f);
-            list.base[k] = std::clamp(((low + high + stepOf(list.factor[k])) / 2 - 4) / 8 + 0.5f, 0.0f, 255.0f);
-            list.base[k] = float(int(list.base[k]));
-        }
-        return list;
-    }
-    static float stepOf(float factor) { return factor > 0 ? 8 * factor : 1; }
+// Factors and bases that are tried with all tables, for values with a range up to `range`: factors above the least one
+// worth a try, and bases from that in the middle, in units of half a step, but at least of 1. For each range those that
+// together had the least errors on ten maps.
+struct Starts {
+    float range;
+    std::size_t count;
+    std::array<float, 16> factors, bases;
 };
 
-// Weighted sums of squared errors, each texel at the nearest level. Levels outside of the codes count as if they were
-// inside, which matters only there.
-struct LevelsErrors {
-    const LevelsList& list;
-    const Values& values;
-    const Values& weights;
-    CandidateValues& errors;
+constexpr std::array<Starts, 12> kStarts{
+    {{16, 4, {0, 0, 0, 1}, {-1, 0, 1, -1}},
+     {32, 5, {0, 0, 0, 1, 1}, {-1, 0, 1, -1, 0}},
+     {48, 5, {0, 0, 0, 1, 3}, {-1, 0, 1, 0, -3}},
+     {80, 7, {0, 0, 0, 0, 0, 1, 1}, {-2, -1, 0, 1, 2, 0, 1}},
+     {128, 12, {0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1}, {-4, -3, -2, -1, 0, 1, 2, 3, 4, -1, 0, 1}},
+     {190, 8, {0, 0, 0, 0, 0, 0, 0, 0}, {-4, -3, -2, -1, 0, 1, 2, 3}},
+     {260, 9, {0, 0, 0, 1, 1, 1, 1, 1, 1}, {-1, 0, 1, -3, -2, -1, 0, 2, 3}},
+     {352, 10, {1, 1, 1, 1, 1, 1, 1, 1, 1, 2}, {-4, -3, -2, -1, 0, 1, 2, 3, 4, -4}},
+     {508, 12, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1}, {-2, -1, 0, 1, 2, -4, -3, -1, 0, 1, 3, 4}},
+     {704, 12, {1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 3, 3}, {-1, 0, 1, -3, -2, -1, 0, 1, 2, 3, -2, 2}},
+     {1016, 12, {1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 4, 4}, {-1, 0, 1, -1, 0, 1, 3, -1, 0, 1, 0, 1}},
+     {kHighestCode, 12, {2, 3, 3, 3, 4, 4, 4, 5, 5, 5, 5, 5}, {0, 0, 1, 3, -1, 0, 1, -3, -1, 0, 1, 3}}}};
 
-    template<class V> [[gnu::always_inline]] void run() const
-    {
-        for (std::size_t first = 0; first < kCandidates; first += sizeof(V) / sizeof(float)) {
-            V base, factor, sum{};
-            std::array<V, 4> level;
-            loadLanes(base, list.base, first);
-            loadLanes(factor, list.factor, first);
-            for (std::size_t k = 0; k < 4; ++k)
-                loadLanes(level[k], list.modifiers[k], first);
-            const V step = factor > 0.0f ? 8 * factor : V{} + 1, inverse = 1 / step,
-                    center = 8 * base + 4 - step * 0.5f;
-            for (std::size_t i = 0; i < 16; ++i) {
-                const V from = (values[i / 4][i % 4] - center) * inverse, distance = from > -from ? from : -from;
-                const V a = distance - level[0], b = distance - level[1], c = distance - level[2],
-                        d = distance - level[3];
-                const V aa = a * a, bb = b * b, cc = c * c, dd = d * d;
-                const V ab = aa < bb ? aa : bb, cd = cc < dd ? cc : dd;
-                sum += weights[i / 4][i % 4] * (ab < cd ? ab : cd);
-            }
-            sum *= step * step;
-            std::memcpy(errors.data() + first, &sum, sizeof sum);
-        }
-    }
-};
-
-// The levels of a table around given ones that have a smaller error, in at most kRounds rounds.
-void descendLevels(Levels& best, float& error, const Values& values, const Values& weights)
+const Starts& startsFor(float range)
 {
-    constexpr int kRounds = 4;
-    constexpr CandidateValues kBaseMoves{1, -1, 0, 0, 1, -1, 1, -1}, kFactorMoves{0, 0, 1, -1, 1, -1, -1, 1};
-    for (int round = 0; round < kRounds; ++round) {
-        LevelsList list{{}, {}, kModifierTables.one[std::size_t(best.table)]};
-        for (std::size_t k = 0; k < kCandidates; ++k) {
-            list.base[k] = std::clamp(float(best.base) + kBaseMoves[k], 0.0f, 255.0f);
-            list.factor[k] = std::clamp(float(best.factor) + kFactorMoves[k], 0.0f, 15.0f);
-        }
-        CandidateValues errors;
-        runLanes(LevelsErrors{list, values, weights, errors});
-        const std::size_t least = leastOf(errors);
-        if (!(errors[least] < error))
-            return;
-        best = {best.table, int(list.base[least]), int(list.factor[least])};
-        error = errors[least];
-    }
+    std::size_t k = 0;
+    for (std::size_t i = 0; i + 1 < kStarts.size(); ++i)
+        k += range > kStarts[i].range;
+    return kStarts[k];
 }
 
-Levels fitLevels(const Values& values, const Values& weights)
+// The largest modifiers reach 14.5 steps from the centre; few values that lie farther cost less than larger steps.
+float leastFactor(float range) { return range <= 48 ? 0.0f : float(int(range / 352) + 1); }
+
+using SixteenFloats = std::array<float, 16>;
+
+template<class V> [[gnu::always_inline]] inline V loaded(const SixteenFloats& from, std::size_t first)
 {
-    constexpr int kRefined = 4; // of the 16 tables
-    constexpr float kTaken = std::numeric_limits<float>::max();
-    const float low = minOf(values), high = maxOf(values);
-    std::array<CandidateValues, 2> errors;
-    std::array<LevelsList, 2> starts{LevelsList::spanning(kModifierTables.all[0], low, high),
-                                     LevelsList::spanning(kModifierTables.all[1], low, high)};
-    for (std::size_t half = 0; half < 2; ++half)
-        runLanes(LevelsErrors{starts[half], values, weights, errors[half]});
-    Levels best;
-    float error = kTaken;
-    for (int i = 0; i < kRefined; ++i) {
-        const std::size_t first = leastOf(errors[0]), second = leastOf(errors[1]);
-        const std::size_t half = errors[1][second] < errors[0][first] ? 1 : 0, k = half == 0 ? first : second;
-        Levels here{int(8 * half + k), int(starts[half].base[k]), int(starts[half].factor[k])};
-        float there = std::exchange(errors[half][k], kTaken);
-        descendLevels(here, there, values, weights);
-        if (there < error) {
-            best = here;
-            error = there;
+    V lanes;
+    std::memcpy(&lanes, &from[first], sizeof lanes);
+    return lanes;
+}
+
+template<class V> [[gnu::always_inline]] inline void store(SixteenFloats& to, std::size_t first, V lanes)
+{
+    std::memcpy(&to[first], &lanes, sizeof lanes);
+}
+
+// Starts for the values of a channel, the parts of a step that a code takes, and squared steps.
+struct PlacedStarts {
+    alignas(32) SixteenFloats factors, bases, centers, inverses, squares;
+
+    template<class V> [[gnu::always_inline]] void place(const Starts& starts, float low, float high)
+    {
+        const float least = leastFactor(high - low);
+        for (std::size_t first = 0; first < starts.count; first += sizeof(V) / sizeof(float)) {
+            const V factor = minOf(loaded<V>(starts.factors, first) + least, V{} + 15), step = stepOf(factor);
+            const V middle = ((low + high + step) * 0.5f - 4) * 0.125f;
+            const V base = middle + loaded<V>(starts.bases, first) * maxOf(factor * 0.5f, V{} + 1);
+            const V code = rounded(minOf(maxOf(base, V{}), V{} + 255));
+            store(factors, first, factor);
+            store(bases, first, code);
+            store(centers, first, 8 * code + 4 - 0.5f * step);
+            store(inverses, first, kParts / step);
+            store(squares, first, step * step);
         }
     }
-    return best;
+};
+
+// The sums of a start's errors for all tables, in squared steps. rows: of the texels.
+template<class V> [[gnu::always_inline]] inline auto errorsOf(const std::array<std::uint32_t, 16>& rows)
+{
+    using Shorts = typename LaneShorts<V>::Type;
+    using HalfShorts = typename LaneShorts<V>::Half;
+    std::array<Shorts, 16 * sizeof(std::uint16_t) / sizeof(V)> sums{};
+    for (const std::uint32_t r : rows)
+        for (std::size_t v = 0; v < sums.size(); ++v) {
+            Shorts row;
+            std::memcpy(&row, reinterpret_cast<const std::byte*>(&kSquares[r]) + v * sizeof row, sizeof row);
+            sums[v] += row;
+        }
+    std::array<V, 2 * sums.size()> errors;
+    for (std::size_t v = 0; v < errors.size(); ++v) {
+        HalfShorts sum;
+        std::memcpy(&sum, reinterpret_cast<const std::byte*>(sums.data()) + v * sizeof sum, sizeof sum);
+        errors[v] = __builtin_convertvector(__builtin_convertvector(sum, typename LaneInts<V>::Type), V);
+    }
+    return errors;
+}
+
+template<class V> [[gnu::always_inline]] inline Levels fitLevels(const Values& values)
+{
+    using Ints = typename LaneInts<V>::Type;
+    constexpr std::size_t kWidth = sizeof(V) / sizeof(float), kVectors = 16 / kWidth;
+    const float low = minOf(values), high = maxOf(values);
+    const Starts& starts = startsFor(high - low);
+    PlacedStarts placed;
+    placed.place<V>(starts, low, high);
+    // Rows of kSquares. All are stored before they are used, since extracting them from vectors takes longer.
+    alignas(32) std::array<std::array<std::uint32_t, 16>, 16> rows;
+    for (std::size_t first = 0; first < 16; first += kWidth) {
+        const V value = lanesOf<V>(values, first);
+        for (std::size_t k = 0; k < starts.count; ++k) {
+            const V off = (value - placed.centers[k]) * placed.inverses[k];
+            const Ints row = __builtin_convertvector(minOf(maxOf(off, -off), V{} + (kRows - 1)), Ints);
+            std::memcpy(&rows[k][first], &row, sizeof row);
+        }
+    }
+    // The least error of each table so far. As an integer, a positive float has the same order; its lowest bits are
+    // replaced by the numbers of the table and of the start.
+    std::array<Ints, kVectors> best;
+    best.fill(Ints{} + 0x7fffffff);
+    for (std::size_t k = 0; k < starts.count; ++k) {
+        const auto errors = errorsOf<V>(rows[k]);
+        for (std::size_t v = 0; v < kVectors; ++v) {
+            const V error = errors[v] * placed.squares[k];
+            Ints key, table;
+            std::memcpy(&key, &error, sizeof key);
+            for (std::size_t t = 0; t < kWidth; ++t)
+                table[t] = int(kWidth * v + t);
+            best[v] = minOf(best[v], (key & ~255) | (table + int(16 * k)));
+        }
+    }
+    int found = best[0][0];
+    for (std::size_t t = 1; t < 16; ++t)
+        found = std::min(found, int(best[t / kWidth][t % kWidth]));
+    const std::size_t start = std::size_t(found >> 4 & 15);
+    return {found & 15, int(placed.bases[start]), int(placed.factors[start])};
 }
 
 // The base, the factor and the table, then 3 bits for each texel, by columns.
-void putLevels(const Levels& levels, const Values& indices, std::byte* to)
+[[gnu::always_inline]] inline void putLevels(const Levels& levels, const Values& indices, std::byte* to)
 {
+    const Four columns = ((indices[0] * 8 + indices[1]) * 8 + indices[2]) * 8 + indices[3];
     std::uint64_t bits =
         std::uint64_t(levels.base) << 56 | std::uint64_t(levels.factor) << 52 | std::uint64_t(levels.table) << 48;
-    for (std::size_t column = 0; column < 4; ++column) {
-        float four = 0;
-        for (std::size_t row = 0; row < 4; ++row)
-            four = four * 8 + indices[row][int(column)];
-        bits |= std::uint64_t(four) << (36 - 12 * column);
-    }
+    for (std::size_t column = 0; column < 4; ++column)
+        bits |= std::uint64_t(columns[column]) << (36 - 12 * column);
     for (int i = 0; i < 8; ++i)
         to[i] = std::byte(bits >> (56 - 8 * i) & 0xff);
 }
 
-// The two levels nearest to values: their indices, and how far they are off.
-template<class V> struct NearestLevels {
-    V index, secondIndex, off, secondOff;
+// The levels below and above values: how far they are off, and the number of the lower one in ascending order.
+template<class V> struct LevelsAround {
+    V below, above, number;
 
-    [[gnu::always_inline]] NearestLevels(const Levels& levels, V value)
+    [[gnu::always_inline]] LevelsAround(const Levels& levels, V value)
     {
-        const V zero{};
-        off = secondOff = zero + std::numeric_limits<float>::max();
-        index = secondIndex = zero;
-        V square = zero + std::numeric_limits<float>::max(), secondSquare = square;
+        const float step = stepOf(float(levels.factor));
+        std::array<float, 8> codes;
         for (std::size_t k = 0; k < 8; ++k) {
-            const V here = zero + levels.code(k) - value, hereSquare = here * here, hereIndex = zero + float(k);
-            const V pushed = hereSquare < square ? square : hereSquare;
-            const V pushedOff = hereSquare < square ? off : here, pushedIndex = hereSquare < square ? index : hereIndex;
-            off = hereSquare < square ? here : off;
-            index = hereSquare < square ? hereIndex : index;
-            square = hereSquare < square ? hereSquare : square;
-            secondOff = pushed < secondSquare ? pushedOff : secondOff;
-            secondIndex = pushed < secondSquare ? pushedIndex : secondIndex;
-            secondSquare = pushed < secondSquare ? pushed : secondSquare;
+            const int modifier = kEacModifiers[std::size_t(levels.table)][k < 4 ? 3 - k : k];
+            codes[k] = std::clamp(float(8 * levels.base + 4) + float(modifier) * step, 0.0f, kHighestCode);
         }
+        number = V{};
+        below = number + codes[0];
+        above = number + codes[1];
+        for (std::size_t k = 1; k < 7; ++k) {
+            below = value > codes[k] ? V{} + codes[k] : below;
+            above = value > codes[k] ? V{} + codes[k + 1] : above;
+            number = value > codes[k] ? V{} + float(k) : number;
+        }
+        below -= value;
+        above -= value;
+    }
+
+    // The index of the lower level, or of the upper one where up is 1.
+    [[gnu::always_inline]] V index(V up) const
+    {
+        const V at = number + up;
+        return at < 4.0f ? 3 - at : at;
     }
 };
 
-// Chooses for each texel, of the pairs of the two nearest levels, the one with the smallest angle.
-struct ChooseLevels {
-    const NormalTexels& t;
-    const Levels &x, &y;
-    Values &indicesX, &indicesY;
+// Encodes a block of normals. Chooses for each texel, of the pairs of levels around x and y, the one with the smallest
+// angle.
+struct EncodeNormals {
+    const Image& map;
+    int left, top;
+    const CodeScale& scale;
+    std::byte* to;
 
     template<class V> [[gnu::always_inline]] void run() const
     {
+        const NormalTexels t = normalTexels<V>(map, left, top, scale, kHighestCode);
+        const Levels x = fitLevels<V>(t.x), y = fitLevels<V>(t.y);
+        Values indicesX, indicesY;
         for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
-            const NearestLevels<V> ofX(x, lanesOf<V>(t.x, first)), ofY(y, lanesOf<V>(t.y, first));
-            const V u = lanesOf<V>(t.u, first), v = lanesOf<V>(t.v, first);
-            V smallest = V{} + std::numeric_limits<float>::max(), indexX{}, indexY{};
-            for (int k = 0; k < 4; ++k) {
-                const V dx = k & 1 ? ofX.secondOff : ofX.off, dy = k & 2 ? ofY.secondOff : ofY.off;
-                const V along = u * dx + v * dy, there = dx * dx + dy * dy + along * along;
-                indexX = there < smallest ? (k & 1 ? ofX.secondIndex : ofX.index) : indexX;
-                indexY = there < smallest ? (k & 2 ? ofY.secondIndex : ofY.index) : indexY;
-                smallest = there < smallest ? there : smallest;
-            }
-            storeLanes(indicesX, first, indexX);
-            storeLanes(indicesY, first, indexY);
+            const LevelsAround<V> ofX(x, lanesOf<V>(t.x, first)), ofY(y, lanesOf<V>(t.y, first));
+            const V u = lanesOf<V>(t.u, first), v = lanesOf<V>(t.v, first), zero{}, one = zero + 1;
+            const auto error = [&](V ex, V ey) __attribute__((always_inline))
+            {
+                const V along = u * ex + v * ey;
+                return ex * ex + ey * ey + along * along;
+            };
+            const V e00 = error(ofX.below, ofY.below), e01 = error(ofX.below, ofY.above);
+            const V e10 = error(ofX.above, ofY.below), e11 = error(ofX.above, ofY.above);
+            const V least0 = minOf(e01, e00), least1 = minOf(e11, e10);
+            const V up0 = e01 < e00 ? one : zero, up1 = e11 < e10 ? one : zero;
+            storeLanes(indicesX, first, ofX.index(least1 < least0 ? one : zero));
+            storeLanes(indicesY, first, ofY.index(least1 < least0 ? up1 : up0));
         }
+        putLevels(x, indicesX, to);
+        putLevels(y, indicesY, to + 8);
     }
 };
 
-void encodePair(const NormalTexels& t, std::byte* to)
-{
-    const Levels x = fitLevels(t.x, t.weightX), y = fitLevels(t.y, t.weightY);
-    Values indicesX{}, indicesY{};
-    runLanes(ChooseLevels{t, x, y, indicesX, indicesY});
-    putLevels(x, indicesX, to);
-    putLevels(y, indicesY, to + 8);
-}
+// Encodes red of a block.
+struct EncodeRed {
+    const Image& image;
+    int left, top;
+    std::byte* to;
+
+    template<class V> [[gnu::always_inline]] void run() const
+    {
+        Values red, green, indices;
+        loadCodes<V>(image, left, top, 0, kHighestCode, kHighestCode, red, green);
+        const Levels levels = fitLevels<V>(red);
+        for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
+            const LevelsAround<V> around(levels, lanesOf<V>(red, first));
+            storeLanes(indices, first, around.index(around.above < -around.below ? V{} + 1 : V{}));
+        }
+        putLevels(levels, indices, to);
+    }
+};
 
 } // namespace
 
 std::vector<std::byte> encodeEacRg11(const Image& map, const CodeScale& scale)
 {
     return encodeBlocks(map, 16, [&](int left, int top, std::byte* to) {
-        encodePair(normalTexels(map, left, top, scale, kHighestCode), to);
+        runLanes(EncodeNormals{map, left, top, scale, to});
     });
 }
 
 std::vector<std::byte> encodeEacR11(const Image& image)
 {
-    return encodeBlocks(image, 8, [&](int left, int top, std::byte* to) {
-        Values values, unused, ones;
-        loadCodes(image, left, top, 0, kHighestCode, kHighestCode, values, unused);
-        ones.fill(kZero + 1);
-        const Levels levels = fitLevels(values, ones);
-        Values indices;
-        for (std::size_t i = 0; i < 4; ++i)
-            indices[i] = NearestLevels<Four>(levels, values[i]).index;
-        putLevels(levels, indices, to);
-    });
+    return encodeBlocks(image, 8, [&](int left, int top, std::byte* to) { runLanes(EncodeRed{image, left, top, to}); });
 }
 
 } // namespace cotan::maps

@@ -44,6 +44,14 @@ CodeFacts factsOf(const TexelCode& code)
     return {0, 37, 4, 1, {0, 1, 2, 15}};
 }
 
+std::size_t bytesOf(const std::vector<TextureLevel>& levels)
+{
+    std::size_t bytes = 0;
+    for (const TextureLevel& level : levels)
+        bytes += level.texels.size();
+    return bytes;
+}
+
 void append(std::string& bytes, const std::vector<std::byte>& more)
 {
     bytes.append(reinterpret_cast<const char*>(more.data()), more.size());
@@ -64,6 +72,7 @@ std::string ddsBytes(const TexelCode& code, const std::vector<TextureLevel>& lev
     else if (code != TexelCode::rgba8)
         stored = {"DX10", facts.dxgi, facts.bytes};
     std::string bytes;
+    bytes.reserve(256 + bytesOf(levels)); // growing it would take twice the memory
     append(bytes, ddsHeader(stored, levels[0].width, levels[0].height, levels.size()));
     for (const TextureLevel& level : levels)
         append(bytes, level.texels);
@@ -117,7 +126,9 @@ std::string ktx2Bytes(const TexelCode& code, const std::vector<TextureLevel>& le
         keys += entry + std::string((4 - entry.size() % 4) % 4, '\0');
     }
     const std::size_t descriptorAt = 80 + 24 * levels.size(), keysAt = descriptorAt + dataFormat.size();
-    std::string data(keysAt + keys.size(), '\0'); // precedes the levels; filled at the end
+    std::string data;
+    data.reserve(keysAt + keys.size() + bytesOf(levels) + levels.size() * facts.bytes);
+    data.resize(keysAt + keys.size(), '\0'); // precedes the levels; filled at the end
     // UASTC is packed as its own encoder does; other blocks are for engines that may not unpack them.
     std::vector<std::vector<std::byte>> packed;
     for (std::size_t i = 0; code == TexelCode::uastc && i < levels.size(); ++i)

@@ -80,25 +80,6 @@ Image scaled(Image image, const CodeScale& scale)
     return image;
 }
 
-// Sets alpha to that of an image of twice the size.
-void averageAlpha(const Image& larger, Image& level)
-{
-    const int across = std::min(larger.width, 2), down = std::min(larger.height, 2);
-    std::vector<glm::vec4> row(std::size_t(larger.width)), to(std::size_t(level.width));
-    for (int y = 0; y < level.height; ++y) {
-        loadRow(level, y, to);
-        for (glm::vec4& texel : to)
-            texel.w = 0;
-        for (int k = 0; k < down; ++k) {
-            loadRow(larger, 2 * y + k, row);
-            for (std::size_t x = 0; x < to.size(); ++x)
-                for (std::size_t i = 0; i < std::size_t(across); ++i)
-                    to[x].w += row[2 * x + i].w / float(across * down);
-        }
-        storeRow(level, y, to);
-    }
-}
-
 } // namespace
 
 std::optional<TexelCode> codeNamed(const std::string& word)
@@ -169,35 +150,20 @@ Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Co
     return level;
 }
 
-Status addMips(const Image& map, const Convention& stored, const TexelCode& code, const Convention& to,
-               std::vector<TextureLevel>& levels)
+Status addCosts(const Image& map, const Convention& convention, const TextureLevel& level, const TexelCode& code,
+                const Convention& to, const std::filesystem::path& file, ValueStatistics& degrees)
 {
-    const PixelType type = code == TexelCode::rgba8 ? PixelType::unorm8 : PixelType::float32;
-    const auto chain = mipChain(map, {.from = stored, .to = codeConvention(code, to), .type = type});
-    Image larger = map;
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-        Image level = chain[i].normals;
-        if (code.holdsRoughness())
-            averageAlpha(larger, level);
-        COTAN_TRY(made, levelOf(level, code, to));
-        levels.push_back(*std::move(made));
-        larger = std::move(level);
-    }
+    const std::string bytes = textureBytes(file, code, {level});
+    COTAN_TRY(read, decodeImage(std::as_bytes(std::span(bytes)), "the texture"));
+    if (imageFormatOf(file)->name == "DDS") // which does not say where x and y are
+        unswizzle(*read, code.swizzle);
+    for (const float angle : anglesBetween(map, convention, *read, storedConvention(code, to)))
+        if (angle >= 0)
+            degrees.add(double(angle));
     return Done{};
 }
 
-Result<TextureCost> costOf(const Image& map, const Convention& convention, std::span<const std::byte> texture,
-                           const Convention& stored)
-{
-    COTAN_TRY(read, decodeImage(texture, "the texture"));
-    if (stored.channels != Channels::xyz)
-        unswizzle(*read, swizzleOf(*read));
-    ValueStatistics angles;
-    for (const float degrees : anglesBetween(map, convention, *read, stored))
-        if (degrees >= 0)
-            angles.add(double(degrees));
-    return TextureCost{angles.mean(), angles.percentile(0.99)};
-}
+TextureCost costOf(ValueStatistics& degrees) { return {degrees.mean(), degrees.percentile(0.99)}; }
 
 TextureLevel greyLevel(const Image& image, const TexelCode& code)
 {

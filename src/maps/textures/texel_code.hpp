@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/value_statistics.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/maps.hpp"
 #include "cotan/result.hpp"
@@ -69,20 +70,16 @@ std::string textureBytes(const std::filesystem::path& file, const TexelCode& cod
 // it.
 Result<TextureLevel> levelOf(const Image& image, const TexelCode& code, const Convention& to, bool lengths = false);
 
-// Appends the smaller levels, to 1 x 1, filtered as vectors; alpha is averaged. map: as for levelOf. stored: its
-// convention. Errors: as levelOf.
-Status addMips(const Image& map, const Convention& stored, const TexelCode& code, const Convention& to,
-               std::vector<TextureLevel>& levels);
-
 // Degrees between a map and its texture. NaN if no texel has a direction.
 struct TextureCost {
     double mean = 0, percentile99 = 0;
 };
 
-// The angles between a map and what a reader finds in the first level of a texture, each read in its own convention.
-// Errors: as decodeImage.
-Result<TextureCost> costOf(const Image& map, const Convention& convention, std::span<const std::byte> texture,
-                           const Convention& stored);
+// Adds the angles between rows of a map and what a reader of a texture that is read as `to` finds in their blocks, each
+// read in its own convention. file: for its extension. Errors: as decodeImage.
+Status addCosts(const Image& map, const Convention& convention, const TextureLevel& level, const TexelCode& code,
+                const Convention& to, const std::filesystem::path& file, ValueStatistics& degrees);
+TextureCost costOf(ValueStatistics& degrees);
 
 // Red as a level of one channel: bc4, eacR11 or uastc (grey) of float32, or an image of unorm8 for rgba8.
 TextureLevel greyLevel(const Image& image, const TexelCode& code);
