@@ -250,13 +250,8 @@ float fitSubset(Block& b, const Texels& t, std::size_t s, const FourLines& lines
     for (int c = 0; c < 3; ++c) {
         const float mean = lines.mean[std::size_t(c)][lane], direction = lines.direction[std::size_t(c)][lane];
         float low = mean + lines.low[lane] * direction, high = mean + lines.high[lane] * direction;
-        if (c == b.own) {
-            low = 255, high = 0;
-            for (const glm::vec3& code : t.codes) {
-                low = std::min(low, code[c]);
-                high = std::max(high, code[c]);
-            }
-        }
+        if (c == b.own)
+            low = minOf(t.codeChannels[std::size_t(c)]), high = maxOf(t.codeChannels[std::size_t(c)]);
         b.ends[s][0][std::size_t(c)] = nearestIndex(table, std::clamp(low, 0.0f, 255.0f));
         b.ends[s][1][std::size_t(c)] = nearestIndex(table, std::clamp(high, 0.0f, 255.0f));
     }
