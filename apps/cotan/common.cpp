@@ -13,6 +13,7 @@
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "image/format_table.hpp"
+#include "terminal/file_words.hpp"
 #include "terminal/printable.hpp"
 #include "terminal/progress_line.hpp"
 
@@ -115,7 +116,7 @@ Status writeReport(const CommonOptions& options, const Json& report)
 {
     if (options.json.empty())
         return Done{};
-    const std::string text = toText(versioned(report));
+    const std::string text = asTyped(toText(versioned(report)), /*json*/ true);
     if (options.json == "-") {
         print(text);
         return flushOutput();
@@ -128,7 +129,7 @@ void say(const CommonOptions& options, const std::string& line)
     if (options.quiet || options.json == "-")
         return;
     wipeProgress();
-    print(printable(line) + "\n");
+    print(printable(asTyped(line)) + "\n");
 }
 
 void sayLines(const CommonOptions& options, const std::string& text)
@@ -143,7 +144,7 @@ void warn(const CommonOptions& options, const std::string& line)
     if (options.quiet)
         return;
     wipeProgress();
-    std::fputs(fmt::format("cotan: warning: {}\n", printable(line)).c_str(), stderr);
+    std::fputs(fmt::format("cotan: warning: {}\n", printable(asTyped(line))).c_str(), stderr);
 }
 
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map)
