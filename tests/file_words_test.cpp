@@ -12,7 +12,7 @@ namespace {
 
 std::string withSlashes(const std::string& word)
 {
-    std::string file = word == "D:far.png" ? "D:/work/far.png" : word;
+    std::string file = word.starts_with("D:") ? "D:/work/" + word.substr(2) : word;
     std::ranges::replace(file, '\\', '/');
     return file;
 }
@@ -61,6 +61,8 @@ TEST_F(FileWords, otherNamesInTheSameFoldersGetBackslashes)
     EXPECT_EQ(asTyped("the folder C:/out/sub does not exist"), "the folder C:\\out\\sub does not exist");
     EXPECT_EQ(asTyped("C:/out/sub/map-ao.png, C:/out/x/y.png: 3/4"),
               "C:\\out\\sub\\map-ao.png, C:\\out\\x\\y.png: 3/4");
+    fileOfWord("D:near\\map.png");
+    EXPECT_EQ(asTyped("D:/work/near/map-ao.png in D:/work/far"), "D:near\\map-ao.png in D:/work/far");
     EXPECT_EQ(asTyped("/E:/whole/name.bin: cut"), "E:\\whole\\name.bin: cut");
 }
 

@@ -47,7 +47,7 @@ class WindowsPackage(Package):
 LINES = """
 map detect @rocks.png
 map info @rocks.png @colors.png --json %info.json
-map info @
+map info @folder
 map convert @rocks.png --from directx --to opengl -o %fixed.png
 map convert @rocks.png --from directx --to opengl -o %again.png --json -
 map convert @rocks.png --from directx --to opengl -o @rocks.png
@@ -67,7 +67,7 @@ bake --high @high.obj --low @low.obj --cage @cage.obj --size 32 -o %baked.png --
 bake --high @high.obj --low @low.obj --size 32 --maps normal,ao --ao-rays 4 -o %several.png
 tangents @low.obj -o %low.glb
 shader --lang hlsl --frame smooth -o %normal.hlsl
-render @m.glb --size 64x48 --device reference --environment @sky.hdr -o %picture.png
+render @m.glb --size 64x48 --device reference --base-color @colors.png -o %picture.png
 """
 
 
@@ -78,7 +78,8 @@ def commandsTakeNamesOfWindows(package):
         for name in (f"w{number}", f"l{number}"):
             folder = package.folder / name / "W"
             (folder / "out").mkdir(parents=True)
-            package.inputs(f"{name}/W/in")
+            files = package.inputs(f"{name}/W/in")
+            shutil.copy(files / "rocks.png", files / "folder" / "x.png")
             both.append(folder)
         ours, theirs = both
         if source == "C":

@@ -12,7 +12,7 @@ const names = namesOf(path.win32);
 const same = (name, word) => assert.equal(path.win32.resolve(name), path.win32.resolve(word), word);
 
 const kWords = ['C:\\maps\\a.png', 'c:/maps\\a.png', '..\\maps\\a.png', '.\\a.png', 'maps\\sub/a.png', 'a.png', '\\\\server\\share\\a.png',
-  '//server/share/a.png', '\\root\\a.png', 'C:\\', 'D:', 'D:a.png', 'D:..\\a.png', 'C:\\x\\..\\a.png', 'C:\\ü 日本\\a b.png'];
+  '//server/share/a.png', '\\root\\a.png', 'C:\\', 'D:', 'D:a.png', 'D:maps\\', 'D:..\\a.png', 'C:\\x\\..\\a.png', 'C:\\ü 日本\\a b.png'];
 
 await runCases({
   filesOfWordsAreThoseThatWindowsMeans() {
@@ -20,6 +20,7 @@ await runCases({
       const file = names.fileOf(word);
       assert.ok(!file.includes('\\'), file);
       same(names.outside(file), word);
+      assert.equal(file.endsWith('/'), /[\\/]$/.test(word), 'folders stay folders');
     }
     assert.equal(names.fileOf('\\\\?\\C:\\long\\a.png'), 'C:/long/a.png');
     assert.equal(names.fileOf('\\\\?\\UNC\\server\\share\\a.png'), '//server/share/a.png');

@@ -53,9 +53,15 @@ std::string fileOfWord(const std::string& word)
     if (file == word)
         return file;
     words()[file] = word;
-    for (std::size_t i = 1; file.size() == word.size() && i < file.size(); ++i)
-        if (file[i] == '/' && file.find_first_not_of('/') < i)
-            words()[file.substr(0, i + 1)] = word.substr(0, i + 1);
+    // The folders of the file, as far as the word names them.
+    for (std::size_t left = 0; left < std::min(file.size(), word.size()); ++left) {
+        const std::size_t ofFile = file.size() - left, ofWord = word.size() - left;
+        const char c = file[ofFile - 1], typed = word[ofWord - 1];
+        if (c != typed && !(c == '/' && typed == '\\'))
+            break;
+        if (c == '/' && file.find_first_not_of('/') < ofFile)
+            words()[file.substr(0, ofFile)] = word.substr(0, ofWord);
+    }
     return file;
 }
 

@@ -6,7 +6,7 @@ const namesOfFiles = (path) => {
   const plain = (name) => name.replace(/^[\\/]{2}\?[\\/](?:UNC([\\/]))?/i, '$1$1').replace(/\\/g, '/'); // without \\?\
   return {
     // What a word of the command line is for C++. C:file is beside the current folder of that drive.
-    fileOf: (word) => windows ? plain(/^[A-Za-z]:(?![\\/])/.test(word) ? path.resolve(word) : word) : word,
+    fileOf: (word) => !windows ? word : plain(/^[A-Za-z]:(?![\\/])/.test(word) ? path.resolve(word) + /[\\/]?$/.exec(word)[0] : word),
     // A whole name of Node.js for C++.
     inside: (name) => windows ? plain(name).replace(/^[A-Za-z]:\//, '/$&') : name,
     // A name of C++ for Node.js: the last drive in it counts.
