@@ -40,6 +40,9 @@ if(Python3_FOUND)
   cotan_slow(Web.tool)
 endif()
 
+# Names of files that the command has on Windows.
+cotan_web_test(file_names ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js)
+
 # The crate for Bevy. With COTAN_BEVY, a clone of Bevy, its shaders take the place of stand-ins.
 cotan_web_test(bevy ARGUMENTS ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 

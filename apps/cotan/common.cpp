@@ -8,6 +8,7 @@
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "image/format_table.hpp"
+#include "terminal/file_words.hpp"
 #include "terminal/printable.hpp"
 
 namespace cotan::app {
@@ -109,7 +110,7 @@ Status writeReport(const CommonOptions& options, const Json& report)
 {
     if (options.json.empty())
         return Done{};
-    const std::string text = toText(versioned(report));
+    const std::string text = asTyped(toText(versioned(report)), /*json*/ true);
     if (options.json == "-") {
         print(text);
         return flushOutput();
@@ -122,7 +123,7 @@ void say(const CommonOptions& options, const std::string& line)
     if (options.quiet || options.json == "-")
         return;
     wipeProgress();
-    print(printable(line) + "\n");
+    print(printable(asTyped(line)) + "\n");
 }
 
 void sayLines(const CommonOptions& options, const std::string& text)
@@ -137,7 +138,7 @@ void warn(const CommonOptions& options, const std::string& line)
     if (options.quiet)
         return;
     wipeProgress();
-    std::fputs(fmt::format("cotan: warning: {}\n", printable(line)).c_str(), stderr);
+    std::fputs(fmt::format("cotan: warning: {}\n", printable(asTyped(line))).c_str(), stderr);
 }
 
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map)

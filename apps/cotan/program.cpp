@@ -17,6 +17,7 @@
 #include "files/file_registry.hpp"
 #include "files/interrupt.hpp"
 #include "files/system/program.hpp"
+#include "terminal/file_words.hpp"
 #include "terminal/printable.hpp"
 
 namespace cotan::app {
@@ -26,7 +27,7 @@ namespace {
 // Does not use fmt::print, which throws if standard error cannot be written.
 int fail(const Error& error)
 {
-    std::fputs(fmt::format("cotan: error: {}\n{}", printable(error.message), error.advice).c_str(), stderr);
+    std::fputs(fmt::format("cotan: error: {}\n{}", printable(asTyped(error.message)), error.advice).c_str(), stderr);
     return int(error.kind);
 }
 

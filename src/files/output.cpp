@@ -91,6 +91,24 @@ fs::path linkTarget(fs::path file)
     return file;
 }
 
+// The device that Windows takes this name for, so that it cannot be a file: "CON" for "folder/con.png". It does so in
+// every folder, whatever the extension, and drops spaces at the end. Empty for other names.
+std::string reservedName(const fs::path& file)
+{
+    if (!devicesHaveNames())
+        return {};
+    std::string name = file.filename().string();
+    name = name.substr(0, name.find_first_of(".:"));
+    name = name.substr(0, name.find_last_not_of(' ') + 1);
+    for (char& c : name)
+        c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+    const bool numbered =
+        name.size() == 4 && (name.starts_with("COM") || name.starts_with("LPT")) && name[3] >= '1' && name[3] <= '9';
+    const bool named =
+        name == "CON" || name == "PRN" || name == "AUX" || name == "NUL" || name == "CONIN$" || name == "CONOUT$";
+    return numbered || named ? name : "";
+}
+
 Status checkName(const fs::path& file)
 {
     if (const std::string device = reservedName(file); !device.empty())

@@ -30,6 +30,8 @@ const cases = {
     fs.writeFileSync(path.join(folder, 'use.js'), program);
     // u runs along x and v against y: w is 1, because cross(n, t) = y points up in the image.
     assert.equal(execFileSync('node', ['use.js'], { cwd: folder, encoding: 'utf8' }).trim(), '1 0 0 1 1 0 0 1 1 0 0 1');
+    fs.writeFileSync(path.join(folder, 'old.js'), "delete process.getBuiltinModule; const { ready, version } = await import('cotan/tangents/beside'); await ready; console.log(version())");
+    assert.equal(execFileSync('node', ['old.js'], { cwd: folder, encoding: 'utf8' }).trim(), cotan.version(), 'Node.js before 20.16');
   },
 
   async tangentsEqualTheNativeOnes() {

@@ -11,6 +11,7 @@
 #include "core/try.hpp"
 #include "parse_errors.hpp"
 #include "terminal/command_words.hpp"
+#include "terminal/file_words.hpp"
 
 namespace cotan::app {
 
@@ -117,12 +118,14 @@ Argument& Argument::shows(std::string minimum, std::string maximum)
 Argument& Argument::reads()
 {
     facts_->use = FileUse::reads;
+    option_->transform(fileOfWord, "");
     return *this;
 }
 
 Argument& Argument::writes()
 {
     facts_->use = FileUse::writes;
+    option_->transform(fileOfWord, "");
     return *this;
 }
 

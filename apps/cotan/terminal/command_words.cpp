@@ -82,7 +82,7 @@ std::vector<std::string> withoutEquals(std::vector<std::string> words)
 
 std::string quoted(const std::string& path)
 {
-    const bool plain = path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./")
+    const bool plain = path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:")
         == std::string::npos;
     std::string text = "'";
     for (char c : path)

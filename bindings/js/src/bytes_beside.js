@@ -4,7 +4,7 @@ import { builtin } from './node.js';
 
 export async function bytesAt(url) {
   const wrong = (found) => new CotanError('unavailable', `${url}: expected the package's wasm file, found ${found}. The entry point without /beside embeds it`);
-  const files = url.protocol === 'file:' && builtin('fs');
+  const files = url.protocol === 'file:' && await builtin('fs');
   if (files) return files.promises.readFile(url).catch((error) => { throw wrong(error.code); });
   const answer = await fetch(url).catch((error) => { throw wrong(error.message); });
   const kind = answer.ok ? answer.headers.get('content-type') : answer.status;

@@ -5,8 +5,8 @@ import { bytesOf } from './image_checks.js';
 import { decodePng, isPng } from './png.js';
 
 /** A package that the user may have installed, found from this file or the working directory; else undefined. */
-function optionalPackage(name) {
-  const from = builtin('module')?.createRequire;
+async function optionalPackage(name) {
+  const from = (await builtin('module'))?.createRequire;
   for (const base of from ? [import.meta.url, `${globalThis.process.cwd()}/`] : []) {
     try {
       return from(base)(name);
@@ -73,7 +73,7 @@ export async function decodeImage(file, name = 'image') {
       bitmap.close();
     }
   }
-  const sharp = optionalPackage('sharp');
+  const sharp = await optionalPackage('sharp');
   if (!sharp) throw new CotanError('unavailable', `${name}: images other than PNG need the package sharp, or options.decode`);
   const { data, info } = await sharp(bytes, { limitInputPixels: kMaxPixels, ignoreIcc: true }).ensureAlpha().raw().toBuffer({ resolveWithObject: true })
     .catch((error) => { throw new CotanError('input', `${name}: ${error.message}`); });
@@ -126,6 +126,6 @@ export async function encodeLossy({ width, height, data }, { mimeType, quality, 
     const blob = await canvas.convertToBlob({ type: mimeType, quality: (quality ?? 100) / 100 });
     return blob.type === mimeType && quality !== undefined ? new Uint8Array(await blob.arrayBuffer()) : null;
   }
-  const sharp = optionalPackage('sharp'), whole = sharp?.(data, { raw: { width, height, channels: 4 } }), image = isOpaque ? whole?.removeAlpha() : whole;
+  const sharp = await optionalPackage('sharp'), whole = sharp?.(data, { raw: { width, height, channels: 4 } }), image = isOpaque ? whole?.removeAlpha() : whole;
   return image ? new Uint8Array(await (mimeType === 'image/jpeg' ? image.jpeg({ quality, chromaSubsampling: halved ? '4:2:0' : '4:4:4' }) : image.webp({ quality, lossless: quality === undefined })).toBuffer()) : null;
 }

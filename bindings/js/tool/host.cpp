@@ -3,11 +3,15 @@
 #include <csignal>
 #include <cstdarg>
 #include <cstring>
+#include <string>
 
 #include <emscripten.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
+#include <sys/utsname.h>
 #include <unistd.h>
+
+#include "terminal/file_words.hpp"
 
 EM_JS(int, cotanHostProcess, (), { return process.pid; });
 EM_JS(int, cotanHostIsRunning, (int number), {
@@ -20,7 +24,24 @@ EM_JS(int, cotanHostIsRunning, (int number), {
 });
 EM_JS(double, cotanHostMemory, (), { return process.resourceUsage().maxRSS; });
 EM_JS(void, cotanHostName, (char* text, int size), { stringToUTF8(Module["machineName"], text, size); });
+EM_JS(void, cotanHostSystem, (char* text, int size), { stringToUTF8(Module["systemName"], text, size); });
 EM_JS(int, cotanHostWidth, (), { return Module["columns"]; });
+EM_JS(void, cotanHostFile, (const char* word, char* file, int size),
+      { stringToUTF8(Module["names"].fileOf(UTF8ToString(word)), file, size); });
+
+namespace {
+
+const bool systemFileIsHosts = [] {
+    cotan::app::systemFileOf = [](const std::string& word) {
+        std::string file(word.size() + 100'000, '\0'); // a drive's current folder may be added
+        cotanHostFile(word.c_str(), file.data(), int(file.size()));
+        file.resize(std::strlen(file.c_str()));
+        return file;
+    };
+    return true;
+}();
+
+} // namespace
 
 extern "C" {
 
@@ -43,6 +64,14 @@ pid_t wait4(pid_t, int*, int, rusage*) // there are no children
 int gethostname(char* text, std::size_t size)
 {
     cotanHostName(text, int(size));
+    return 0;
+}
+
+int uname(utsname* name)
+{
+    std::memset(name, 0, sizeof *name);
+    cotanHostSystem(name->sysname, int(sizeof name->sysname));
+    std::strcpy(name->machine, "wasm32");
     return 0;
 }
 

@@ -5,12 +5,7 @@ Module['preRun'] = () => {
   const pause = new Int32Array(new SharedArrayBuffer(4));
   Object.assign(ENV, process.env);
 
-  // A drive of Windows is a folder of the root for C++: /C:/folder.
-  const drives = process.platform === 'win32';
-  const inside = (name) => drives ? name.replace(/\\/g, '/').replace(/^[A-Za-z]:\//, '/$&') : name;
-  const outside = (name) => drives && typeof name === 'string' ? name.replace(/^\/([A-Za-z]:)/, '$1') : name;
-  if (drives) arguments_ = arguments_.map((word) => word.replace(/\\/g, '/').replace(/^(|--[a-z-]+=)([A-Za-z]:\/)/, '$1/$2'));
-
+  const windows = process.platform === 'win32', names = namesOfFiles(require('path')), { inside, outside } = names;
   const failed = (error) => ERRNO_CODES[error.code] ?? ERRNO_CODES.EIO;
   const wrapped = (work) => (...words) => {
     try {
@@ -39,7 +34,18 @@ Module['preRun'] = () => {
       FS.streams[fd] = { fd, nfd: fd, position: 0, path: '', flags: fd === 0 ? 0 : 1, tty: tty.isatty(fd), seekable: false };
   };
   FS.cwd = () => inside(process.cwd());
-  FS.readlink = wrapped((name) => inside(fs.readlinkSync(name)));
+  const readLink = wrapped((name) => {
+    if (windows && !fs.lstatSync(name).isSymbolicLink()) throw new FS.ErrnoError(ERRNO_CODES.EINVAL); // some disks of Windows give other errors
+    return inside(fs.readlinkSync(name));
+  });
+  FS.readlink = (name) => {
+    if (names.isRoot(name)) throw new FS.ErrnoError(ERRNO_CODES.EINVAL); // no link
+    return names.linkOf(name) ?? readLink(name);
+  };
+  // Numbers of files have 64 bits on Windows. A number of JavaScript loses the last of them, which differ.
+  if (windows)
+    for (const stat of ['stat', 'lstat'])
+      FS[stat] = wrapped((name) => Object.assign(fs[`${stat}Sync`](name), { ino: Number(BigInt.asUintN(53, fs[`${stat}Sync`](name, { bigint: true }).ino)) }));
   FS.open = wrapped((name, flags, mode) => {
     const writes = (flags & 3) !== 0;
     if (writes) note(name);
@@ -94,6 +100,8 @@ Module['preRun'] = () => {
   const complete = SYSCALLS.calculateAt;
   SYSCALLS.calculateAt = (folder, name, empty) => folder === -100 && name ? name : complete(folder, name, empty);
 
+  Module['names'] = names;
   Module['machineName'] = os.hostname();
+  Module['systemName'] = os.type();
   Module['columns'] = workerData?.columns ?? 0;
 };

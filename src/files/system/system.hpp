@@ -34,9 +34,8 @@ FileKind fileNumber(const std::filesystem::path& file, FileNumber& number);
 // Whether the name itself leads to an open file or a device: /dev/stdout.
 bool isNameOfDevice(const std::filesystem::path& file);
 
-// The device that the system takes this name for, so that it cannot be a file: "CON" for "folder/con.png". Empty on
-// systems without such names.
-std::string reservedName(const std::filesystem::path& file);
+// Whether names such as CON mean devices in every folder, as on Windows.
+bool devicesHaveNames();
 
 pid_t thisProcess();
 bool isRunning(pid_t process); // on this machine

@@ -47,7 +47,12 @@ bool isNameOfDevice(const fs::path& file)
     return (file.native().starts_with("/dev/") || file.native().starts_with("/proc/")) && fs::is_symlink(file, ignored);
 }
 
-std::string reservedName(const fs::path&) { return {}; }
+// WebAssembly has this code too. Node.js on Windows runs it under the name of that system.
+bool devicesHaveNames()
+{
+    utsname name{};
+    return ::uname(&name) == 0 && std::string_view(name.sysname) == "Windows_NT";
+}
 
 pid_t thisProcess() { return ::getpid(); }
 

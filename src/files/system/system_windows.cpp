@@ -5,7 +5,6 @@
 #include <fcntl.h>
 #include <io.h>
 
-#include "core/named_values.hpp"
 #include "core/windows.hpp"
 #include "files/system/system.hpp"
 // After windows.h.
@@ -60,20 +59,7 @@ FileKind fileNumber(const fs::path& file, FileNumber& number)
 
 bool isNameOfDevice(const fs::path&) { return false; }
 
-// Windows takes these names for devices in every folder, whatever their extension, and drops spaces at their end.
-std::string reservedName(const fs::path& file)
-{
-    std::string name = file.filename().string();
-    name = name.substr(0, name.find_first_of(".:"));
-    name = lowerCase(name.substr(0, name.find_last_not_of(' ') + 1));
-    const bool numbered =
-        name.size() == 4 && (name.starts_with("com") || name.starts_with("lpt")) && name[3] >= '1' && name[3] <= '9';
-    if (!numbered && name != "con" && name != "prn" && name != "aux" && name != "nul" && name != "conin$"
-        && name != "conout$")
-        return {};
-    std::ranges::transform(name, name.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c; });
-    return name;
-}
+bool devicesHaveNames() { return true; }
 
 pid_t thisProcess() { return pid_t(::GetCurrentProcessId()); }
 

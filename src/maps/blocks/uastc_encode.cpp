@@ -31,6 +31,13 @@ struct Etc1Hint {
 
 Etc1Hint etc1Hint(const Texels& t)
 {
+    static const auto modifiers = [] { // of four tables, the small ones and the large ones
+        std::array<std::array<Four, 2>, 2> all{};
+        for (std::size_t table = 0; table < 8; ++table)
+            for (std::size_t size = 0; size < 2; ++size)
+                all[table / 4][size][table % 4] = float(kEtcModifiers[table][size]);
+        return all;
+    }();
     Etc1Hint best;
     float least = 1e30f;
     for (int flip = 0; flip < 2; ++flip) {
@@ -41,25 +48,25 @@ Etc1Hint etc1Hint(const Texels& t)
             glm::vec3 mean(0);
             for (std::size_t i = 0; i < 16; ++i)
                 mean += inside(i) ? t.codes[i] / 8.0f : glm::vec3(0);
-            float leastHere = 1e30f;
-            for (int table = 0; table < 8; ++table) {
-                float here = 0;
-                for (std::size_t i = 0; i < 16; ++i) {
-                    if (!inside(i))
-                        continue;
-                    float nearest = 1e30f;
-                    for (const int modifier : kEtcModifiers[std::size_t(table)])
-                        for (const int sign : {-1, 1}) {
-                            const glm::vec3 off = mean + float(sign * modifier) - t.codes[i];
-                            nearest = std::min(nearest, glm::dot(off, off));
+            std::array<Four, 2> errors{}; // a lane for each table
+            for (std::size_t i = 0; i < 16; ++i)
+                for (std::size_t k = 0; inside(i) && k < 2; ++k) {
+                    Four nearest = kZero + 1e30f;
+                    for (const Four& modifier : modifiers[k])
+                        for (const float sign : {-1.0f, 1.0f}) {
+                            std::array<Four, 3> off;
+                            for (int c = 0; c < 3; ++c)
+                                off[std::size_t(c)] = mean[c] + sign * modifier - t.codes[i][c];
+                            nearest = minOf(off[0] * off[0] + off[1] * off[1] + off[2] * off[2], nearest);
                         }
-                    here += nearest;
+                    errors[k] += nearest;
                 }
-                if (here < leastHere) {
-                    leastHere = here;
-                    hint.tables[half] = table;
+            float leastHere = 1e30f;
+            for (std::size_t table = 0; table < 8; ++table)
+                if (errors[table / 4][table % 4] < leastHere) {
+                    leastHere = errors[table / 4][table % 4];
+                    hint.tables[half] = int(table);
                 }
-            }
             error += leastHere;
         }
         if (error < least) {
@@ -112,7 +119,7 @@ void putEnds(BlockBits& bits, const Block& b, std::size_t subsets)
     for (std::size_t s = 0; s < subsets; ++s)
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t e = 0; e < 2; ++e)
-                values.push_back(endpointValues(b.mode)[std::size_t(b.ends[s][e][c])]);
+                values.push_back(endpointTable(b.mode).values[std::size_t(b.ends[s][e][c])]);
     const auto group = std::size_t(uastcDigitsOfGroup(mode.levels));
     for (std::size_t first = 0; mode.levels > 1 && first < values.size(); first += group) {
         const std::size_t count = std::min(group, values.size() - first);

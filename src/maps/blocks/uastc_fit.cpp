@@ -1,7 +1,6 @@
 #include "uastc_fit.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -11,90 +10,132 @@ namespace cotan::maps::uastc {
 
 Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale, bool lengths)
 {
-    Texels t;
+    Texels t{};
     for (int i = 0; i < 16; ++i) {
         const float* const texel = texelAt(map, left, top, i);
         const glm::vec3 n = 2.0f * glm::vec3(texel[0], texel[1], texel[2]) - 1.0f;
         t.codes[std::size_t(i)] = glm::clamp(scale.zero + scale.unit * n, 0.0f, 255.0f);
         const float length = glm::length(n);
-        t.normals[std::size_t(i)] = length > 1e-3f && !lengths ? n / length : glm::vec3(0);
+        const glm::vec3 normal = length > 1e-3f && !lengths ? n / length : glm::vec3(0);
+        for (int c = 0; c < 3; ++c) {
+            at(t.codeChannels[std::size_t(c)], std::size_t(i)) = t.codes[std::size_t(i)][c];
+            at(t.normalChannels[std::size_t(c)], std::size_t(i)) = normal[c];
+        }
     }
     return t;
 }
 
-const EndpointValues& endpointValues(std::size_t mode)
+const EndpointTable& endpointTable(std::size_t mode)
 {
-    static const std::array<EndpointValues, 19> all = [] {
-        std::array<EndpointValues, 19> values;
-        for (std::size_t m = 0; m < values.size(); ++m) {
+    static const std::array<EndpointTable, kUastcModes.size()> all = [] {
+        std::array<EndpointTable, kUastcModes.size()> tables;
+        for (std::size_t m = 0; m < tables.size(); ++m) {
             const UastcMode& facts = kUastcModes[m];
+            std::vector<EndpointValue>& values = tables[m].values;
             for (int digit = 0; digit < facts.levels; ++digit)
                 for (int low = 0; low < 1 << facts.endpointBits; ++low)
-                    values[m].push_back({uastcEndpoint(facts.levels, digit, facts.endpointBits, low), digit, low});
-            std::ranges::sort(values[m], {}, &EndpointValue::value);
+                    values.push_back({uastcEndpoint(facts.levels, digit, facts.endpointBits, low), digit, low});
+            std::ranges::sort(values, {}, &EndpointValue::value);
+            for (int code = 0; code < 256; ++code)
+                tables[m].notBelow[std::size_t(code)] =
+                    std::int16_t(std::ranges::lower_bound(values, code, {}, &EndpointValue::value) - values.begin());
         }
-        return values;
+        return tables;
     }();
     return all[mode];
 }
 
 namespace {
 
-int nearestIndex(const EndpointValues& values, float code)
+// code: 0 to 255, or NaN.
+int nearestIndex(const EndpointTable& table, float code)
 {
-    const auto above =
-        std::ranges::lower_bound(values, code, {}, [](const EndpointValue& v) { return float(v.value); });
-    const auto i = int(above - values.begin());
-    if (i == 0 || (i < int(values.size()) && float(above->value) - code < code - float((above - 1)->value)))
-        return i;
-    return i - 1;
+    const std::vector<EndpointValue>& values = table.values;
+    const int whole = code > 0 ? int(code) : 0,
+              above = table.notBelow[std::size_t(whole) + (float(whole) < code ? 1 : 0)];
+    const auto value = [&](int i) { return float(values[std::size_t(i)].value); };
+    if (above == 0 || (above < int(values.size()) && value(above) - code < code - value(above - 1)))
+        return above;
+    return above - 1;
 }
 
-// The error across the normal; a little of that along it, so that lengths stay near 1.
-float errorOf(const glm::vec3& off, const glm::vec3& normal)
+constexpr float kAlong = 0.98f; // of the error along the normal that is left out: a little keeps lengths near 1
+
+// A vector in each of four lanes.
+using FourVectors = std::array<Four, 3>;
+
+Four dot(const FourVectors& a, const FourVectors& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+FourVectors operator-(const FourVectors& a, const FourVectors& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+FourVectors times(Four s, const FourVectors& v) { return {s * v[0], s * v[1], s * v[2]}; }
+
+FourVectors inAllLanes(const glm::vec3& v) { return {kZero + v.x, kZero + v.y, kZero + v.z}; }
+
+FourVectors vectorsAt(const std::array<Values, 3>& channels, std::size_t i)
 {
-    const float along = glm::dot(off, normal);
-    return glm::dot(off, off) - 0.98f * along * along;
+    return {channels[0][i], channels[1][i], channels[2][i]};
 }
 
-// The weight that brings from + w * step nearest to the code, in 0 to most.
-int nearestWeight(const glm::vec3& code, const glm::vec3& from, const glm::vec3& step, const glm::vec3& normal,
-                  int most)
+Four sharesOf(int weightBits, FourInts w) // uastcWeight / 64
 {
-    const glm::vec3 across = step - 0.98f * glm::dot(step, normal) * normal;
-    const float length = glm::dot(step, across);
-    const float w = length > 1e-6f ? glm::dot(code - from, across) / length : 0;
-    return int(std::clamp(w, 0.0f, 1.0f) * float(most) + 0.5f);
+    const FourInts six = weightBits == 5 ? (w << 1 | w >> 4)
+        : weightBits == 4                ? (w << 2 | w >> 2)
+                                         : w
+            * (weightBits == 3       ? 9
+                   : weightBits == 2 ? 21
+                                     : 63);
+    return __builtin_convertvector(six - (six > 32), Four) / 64.0f; // true is -1
 }
 
-// Chooses the weights for the ends, and sums the errors of subset `s`.
+// The weights that bring from + w * step nearest to the codes, 0 to most. off: codes - from.
+FourInts nearestWeights(const FourVectors& off, const FourVectors& step, const FourVectors& normals, int most)
+{
+    const FourVectors across = step - times(kAlong * dot(step, normals), normals);
+    const Four length = dot(step, across);
+    const Four w = length > 1e-6f ? dot(off, across) / (length > 1e-6f ? length : kZero + 1) : kZero;
+    return __builtin_convertvector(minOf(maxOf(w, kZero), kZero + 1) * float(most) + 0.5f, FourInts);
+}
+
+// Chooses the weights for the ends, and sums the errors of subset `s`: those across the normals.
 float weigh(Block& b, const Texels& t, std::size_t s)
 {
-    const UastcMode& mode = kUastcModes[b.mode];
-    const EndpointValues& values = endpointValues(b.mode);
-    const int most = (1 << mode.weightBits) - 1;
-    glm::vec3 from{}, step{};
+    const int bits = kUastcModes[b.mode].weightBits, most = (1 << bits) - 1;
+    const std::vector<EndpointValue>& values = endpointTable(b.mode).values;
+    glm::vec3 first{}, toSecond{}, ownToSecond(0);
     for (int c = 0; c < 3; ++c) {
-        from[c] = float(values[std::size_t(b.ends[s][0][std::size_t(c)])].value);
-        step[c] = float(values[std::size_t(b.ends[s][1][std::size_t(c)])].value) - from[c];
+        first[c] = float(values[std::size_t(b.ends[s][0][std::size_t(c)])].value);
+        toSecond[c] = float(values[std::size_t(b.ends[s][1][std::size_t(c)])].value) - first[c];
     }
-    glm::vec3 ownStep(0);
-    if (b.own >= 0) {
-        ownStep[b.own] = step[b.own];
-        step[b.own] = 0;
-    }
-    const auto share = [&](int w) { return float(uastcWeight(mode.weightBits, w)) / 64; };
+    if (b.own >= 0)
+        std::swap(ownToSecond[b.own], toSecond[b.own]);
+    const FourVectors from = inAllLanes(first), step = inAllLanes(toSecond), ownStep = inAllLanes(ownToSecond);
+    const std::uint32_t subset = s == 0 ? ~b.subsets() : b.subsets();
     float sum = 0;
-    for (std::size_t i = 0; i < 16; ++i) {
-        if ((b.subsets() >> i & 1) != s)
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::uint32_t inside = subset >> 4 * i & 15;
+        if (inside == 0)
             continue;
-        int& first = b.weights[0][i];
-        int& second = b.weights[1][i];
-        second = b.own < 0 ? 0 : nearestWeight(t.codes[i], from, ownStep, glm::vec3(0), most);
-        first = nearestWeight(t.codes[i] - share(second) * ownStep, from, step, t.normals[i], most);
-        if (b.own >= 0)
-            second = nearestWeight(t.codes[i] - share(first) * step, from, ownStep, t.normals[i], most);
-        sum += errorOf(from + share(first) * step + share(second) * ownStep - t.codes[i], t.normals[i]);
+        const FourVectors codes = vectorsAt(t.codeChannels, i), normals = vectorsAt(t.normalChannels, i);
+        FourInts w, own{};
+        if (b.own < 0) {
+            w = nearestWeights(codes - from, step, normals, most);
+        } else {
+            own = nearestWeights(codes - from, ownStep, {}, most);
+            w = nearestWeights(codes - times(sharesOf(bits, own), ownStep) - from, step, normals, most);
+            own = nearestWeights(codes - times(sharesOf(bits, w), step) - from, ownStep, normals, most);
+        }
+        const Four share = sharesOf(bits, w), ownShare = sharesOf(bits, own);
+        FourVectors off;
+        for (std::size_t c = 0; c < 3; ++c)
+            off[c] = from[c] + share * step[c] + ownShare * ownStep[c] - codes[c];
+        const Four along = dot(off, normals), error = dot(off, off) - kAlong * along * along;
+        for (std::size_t lane = 0; lane < 4; ++lane)
+            if ((inside >> lane & 1) != 0) {
+                b.weights[0][4 * i + lane] = w[lane];
+                b.weights[1][4 * i + lane] = own[lane];
+                sum += error[lane];
+            }
     }
     return sum;
 }
@@ -102,103 +143,117 @@ float weigh(Block& b, const Texels& t, std::size_t s)
 // The ends that fit best, channel by channel, if every texel keeps its weights.
 void leastSquares(Block& b, const Texels& t, std::size_t s)
 {
-    const UastcMode& mode = kUastcModes[b.mode];
-    const EndpointValues& values = endpointValues(b.mode);
+    const int bits = kUastcModes[b.mode].weightBits;
+    const EndpointTable& table = endpointTable(b.mode);
+    Four aa{}, ab{}, bb{}, av{}, bv{}; // a lane for each channel
+    for (std::size_t i = 0; i < 16; ++i) {
+        if ((b.subsets() >> i & 1) != s)
+            continue;
+        const auto share = [&](std::size_t plane) { return float(uastcWeight(bits, b.weights[plane][i])) / 64; };
+        Four w = kZero + share(0);
+        if (b.own >= 0)
+            w[b.own] = share(1);
+        const Four rest = 1 - w, v{t.codes[i].x, t.codes[i].y, t.codes[i].z, 0};
+        aa += rest * rest;
+        ab += rest * w;
+        bb += w * w;
+        av += rest * v;
+        bv += w * v;
+    }
     for (int c = 0; c < 3; ++c) {
-        const auto& weights = b.weights[c == b.own ? 1 : 0];
-        float aa = 0, ab = 0, bb = 0, av = 0, bv = 0;
-        for (std::size_t i = 0; i < 16; ++i) {
-            if ((b.subsets() >> i & 1) != s)
-                continue;
-            const float w = float(uastcWeight(mode.weightBits, weights[i])) / 64, rest = 1 - w, v = t.codes[i][c];
-            aa += rest * rest;
-            ab += rest * w;
-            bb += w * w;
-            av += rest * v;
-            bv += w * v;
-        }
-        const float determinant = aa * bb - ab * ab;
+        const float determinant = aa[c] * bb[c] - ab[c] * ab[c];
         if (!(determinant > 1e-4f))
             continue;
-        const std::array<float, 2> fitted{(av * bb - bv * ab) / determinant, (bv * aa - av * ab) / determinant};
+        const std::array<float, 2> fitted{(av[c] * bb[c] - bv[c] * ab[c]) / determinant,
+                                          (bv[c] * aa[c] - av[c] * ab[c]) / determinant};
         for (std::size_t e = 0; e < 2; ++e)
-            b.ends[s][e][std::size_t(c)] = nearestIndex(values, std::clamp(fitted[e], 0.0f, 255.0f));
+            b.ends[s][e][std::size_t(c)] = nearestIndex(table, std::clamp(fitted[e], 0.0f, 255.0f));
     }
 }
 
-struct Line {
-    glm::vec3 mean{0}, direction{0};
-    float low = 0, high = 0, rest = 0; // range along it; squared distances to it
+// Four lines through texels of a block, each in a lane.
+struct FourLines {
+    FourVectors mean{}, direction{};
+    Four low{}, high{}, rest{}; // range along it; squared distances to it
 };
 
-// The line through the texels of a subset, by power iteration. without: a channel that is left out; -1: none.
-Line lineThrough(const Texels& t, std::uint32_t subsets, std::size_t s, int without = -1)
+// Texels that a line goes through, as bits, and a channel that is left out; -1: none.
+struct OfLine {
+    std::uint32_t texels = 0;
+    int without = -1;
+};
+
+// By power iteration.
+FourLines linesThrough(const Texels& t, const std::array<OfLine, 4>& of)
 {
-    Line line;
-    float count = 0;
-    std::array<glm::vec3, 16> centred{};
-    for (std::size_t i = 0; i < 16; ++i)
-        if ((subsets >> i & 1) == s) {
-            line.mean += t.codes[i];
-            ++count;
-        }
-    line.mean /= std::max(count, 1.0f);
-    std::array<glm::vec3, 3> covariance{};
-    float trace = 0;
-    for (std::size_t i = 0; i < 16; ++i) {
-        if ((subsets >> i & 1) != s)
-            continue;
-        centred[i] = t.codes[i] - line.mean;
-        if (without >= 0)
-            centred[i][without] = 0;
-        for (int c = 0; c < 3; ++c)
-            covariance[std::size_t(c)] += centred[i] * centred[i][c];
-        trace += glm::dot(centred[i], centred[i]);
+    FourLines line;
+    std::array<FourVectors, 16> centred;
+    std::array<FourInts, 16> inside;
+    FourVectors with = inAllLanes(glm::vec3(1)); // 0: the channel is left out
+    Four count{};
+    FourInts texels{};
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+        texels[lane] = std::int32_t(of[lane].texels);
+        if (of[lane].without >= 0)
+            with[std::size_t(of[lane].without)][lane] = 0;
     }
-    const auto times = [&](const glm::vec3& v) {
-        return glm::vec3(glm::dot(covariance[0], v), glm::dot(covariance[1], v), glm::dot(covariance[2], v));
-    };
-    glm::vec3 axis(0);
-    for (const glm::vec3& row : covariance) // the longest row is no eigenvector's opposite
-        axis = glm::dot(row, row) > glm::dot(axis, axis) ? row : axis;
-    float largest = 0;
+    for (std::size_t i = 0; i < 16; ++i) {
+        inside[i] = -(texels >> std::int32_t(i) & 1);
+        for (std::size_t c = 0; c < 3; ++c)
+            line.mean[c] += inside[i] ? kZero + t.codes[i][int(c)] : kZero;
+        count += inside[i] ? kZero + 1 : kZero;
+    }
+    for (Four& mean : line.mean)
+        mean /= maxOf(count, kZero + 1);
+    std::array<FourVectors, 3> covariance{};
+    Four trace{};
+    for (std::size_t i = 0; i < 16; ++i) {
+        for (std::size_t c = 0; c < 3; ++c)
+            centred[i][c] = inside[i] ? (t.codes[i][int(c)] - line.mean[c]) * with[c] : kZero;
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t d = c; d < 3; ++d)
+                covariance[c][d] = covariance[d][c] += centred[i][d] * centred[i][c];
+        trace += dot(centred[i], centred[i]);
+    }
+    FourVectors axis{};
+    for (const FourVectors& row : covariance) { // the longest row is no eigenvector's opposite
+        const FourInts longer = dot(row, row) > dot(axis, axis);
+        for (std::size_t c = 0; c < 3; ++c)
+            axis[c] = longer ? row[c] : axis[c];
+    }
+    Four largest{};
+    FourInts going = kZero == kZero;
     for (int round = 0; round < 4; ++round) {
-        const float length = glm::length(axis);
-        if (!(length > 1e-6f))
-            break;
-        line.direction = axis / length;
-        axis = times(line.direction);
-        largest = glm::dot(axis, line.direction);
+        const Four length = rootOf(dot(axis, axis));
+        going &= length > 1e-6f;
+        for (std::size_t c = 0; c < 3; ++c)
+            line.direction[c] = going ? axis[c] / (going ? length : kZero + 1) : line.direction[c];
+        for (std::size_t c = 0; c < 3; ++c)
+            axis[c] = dot(covariance[c], line.direction);
+        largest = going ? dot(axis, line.direction) : largest;
     }
-    line.rest = std::max(trace - largest, 0.0f);
-    line.low = 1e9f;
-    line.high = -1e9f;
+    line.rest = maxOf(trace - largest, kZero);
+    line.low = kZero + 1e9f;
+    line.high = kZero - 1e9f;
     for (std::size_t i = 0; i < 16; ++i) {
-        if ((subsets >> i & 1) != s)
-            continue;
-        const float along = glm::dot(centred[i], line.direction);
-        line.low = std::min(line.low, along);
-        line.high = std::max(line.high, along);
+        const Four along = dot(centred[i], line.direction);
+        line.low = inside[i] ? minOf(along, line.low) : line.low;
+        line.high = inside[i] ? maxOf(along, line.high) : line.high;
     }
     return line;
 }
 
 // Fits one subset: ends of the line, then twice weights and ends in turn.
-float fitSubset(Block& b, const Texels& t, std::size_t s)
+float fitSubset(Block& b, const Texels& t, std::size_t s, const FourLines& lines, std::size_t lane)
 {
-    const EndpointValues& values = endpointValues(b.mode);
-    const Line line = lineThrough(t, b.subsets(), s, b.own);
+    const EndpointTable& table = endpointTable(b.mode);
     for (int c = 0; c < 3; ++c) {
-        float low = line.mean[c] + line.low * line.direction[c], high = line.mean[c] + line.high * line.direction[c];
-        if (c == b.own) {
-            low = 255, high = 0;
-            for (const glm::vec3& code : t.codes) {
-                low = std::min(low, code[c]);
-                high = std::max(high, code[c]);
-            }
-        }
-        b.ends[s][0][std::size_t(c)] = nearestIndex(values, std::clamp(low, 0.0f, 255.0f));
-        b.ends[s][1][std::size_t(c)] = nearestIndex(values, std::clamp(high, 0.0f, 255.0f));
+        const float mean = lines.mean[std::size_t(c)][lane], direction = lines.direction[std::size_t(c)][lane];
+        float low = mean + lines.low[lane] * direction, high = mean + lines.high[lane] * direction;
+        if (c == b.own)
+            low = minOf(t.codeChannels[std::size_t(c)]), high = maxOf(t.codeChannels[std::size_t(c)]);
+        b.ends[s][0][std::size_t(c)] = nearestIndex(table, std::clamp(low, 0.0f, 255.0f));
+        b.ends[s][1][std::size_t(c)] = nearestIndex(table, std::clamp(high, 0.0f, 255.0f));
     }
     float error = weigh(b, t, s);
     for (int round = 0; round < 2; ++round) {
@@ -213,41 +268,48 @@ float fitSubset(Block& b, const Texels& t, std::size_t s)
     return error;
 }
 
-Block fit(std::size_t mode, const Texels& t, std::size_t pattern = 0, int own = -1)
+// lane: of the line through the first subset; that of the second follows.
+Block fit(std::size_t mode, const Texels& t, const FourLines& lines, std::size_t lane, std::size_t pattern = 0,
+          int own = -1)
 {
     Block b;
     b.mode = mode;
     b.pattern = pattern;
     b.own = own;
-    b.error = fitSubset(b, t, 0);
+    b.error = fitSubset(b, t, 0, lines, lane);
     if (b.subsets() != 0)
-        b.error += fitSubset(b, t, 1);
+        b.error += fitSubset(b, t, 1, lines, lane + 1);
     return b;
 }
 
 // Moves each value of the ends to its neighbours while that reduces the error.
 void descend(Block& b, const Texels& t)
 {
-    const int most = int(endpointValues(b.mode).size()) - 1;
+    const int most = int(endpointTable(b.mode).values.size()) - 1;
     const std::size_t subsets = b.subsets() != 0 ? 2 : 1;
     for (std::size_t s = 0; s < subsets; ++s) {
         float error = weigh(b, t, s);
         const float before = error;
-        for (std::size_t e = 0; e < 2; ++e)
-            for (std::size_t c = 0; c < 3; ++c)
+        for (std::array<int, 3>& end : b.ends[s])
+            for (int& value : end)
                 for (const int by : {-1, 1}) {
-                    Block next = b;
-                    int& value = next.ends[s][e][c];
-                    value = std::clamp(value + by, 0, most);
-                    const float there = weigh(next, t, s);
-                    if (there < error) {
-                        b = next;
+                    const int old = value;
+                    value = std::clamp(old + by, 0, most);
+                    const float there = value == old ? error : weigh(b, t, s);
+                    if (there < error)
                         error = there;
-                    }
+                    else
+                        value = old;
                 }
         weigh(b, t, s);
         b.error += error - before;
     }
+}
+
+std::array<OfLine, 4> linesOfPatterns(std::size_t p, std::size_t q)
+{
+    const std::uint32_t a = kTwoSubsetsOfUastc[p], b = kTwoSubsetsOfUastc[q];
+    return {{{~a}, {a}, {~b}, {b}}};
 }
 
 // The patterns of two subsets with the least squared distances to two lines, best first.
@@ -255,15 +317,18 @@ std::array<std::size_t, 2> bestPatterns(const Texels& t)
 {
     std::array<std::size_t, 2> best{};
     std::array<float, 2> rests{1e30f, 1e30f};
-    for (std::size_t p = 0; p < kTwoSubsetsOfUastc.size(); ++p) {
-        const std::uint32_t subsets = kTwoSubsetsOfUastc[p];
-        const float rest = lineThrough(t, subsets, 0).rest + lineThrough(t, subsets, 1).rest;
-        if (rest < rests[0]) {
-            best = {p, best[0]};
-            rests = {rest, rests[0]};
-        } else if (rest < rests[1]) {
-            best[1] = p;
-            rests[1] = rest;
+    static_assert(kTwoSubsetsOfUastc.size() % 2 == 0);
+    for (std::size_t pair = 0; pair < kTwoSubsetsOfUastc.size(); pair += 2) {
+        const Four rests4 = linesThrough(t, linesOfPatterns(pair, pair + 1)).rest;
+        for (const std::size_t p : {pair, pair + 1}) {
+            const float rest = rests4[2 * (p - pair)] + rests4[2 * (p - pair) + 1];
+            if (rest < rests[0]) {
+                best = {p, best[0]};
+                rests = {rest, rests[0]};
+            } else if (rest < rests[1]) {
+                best[1] = p;
+                rests[1] = rest;
+            }
         }
     }
     return best;
@@ -273,14 +338,17 @@ std::array<std::size_t, 2> bestPatterns(const Texels& t)
 
 Block bestBlock(const Texels& t)
 {
-    std::vector<Block> blocks{fit(0, t), fit(18, t), fit(5, t)};
+    const FourLines whole = linesThrough(t, {{{0xffff}, {0xffff, 0}, {0xffff, 1}, {0xffff, 2}}});
+    std::vector<Block> blocks{fit(0, t, whole, 0), fit(18, t, whole, 0), fit(5, t, whole, 0)};
     constexpr float kFine = 0.25f * 16; // squared codes: half a code on average
     if (blocks[0].error > kFine) {
         for (int own = 0; own < 3; ++own)
-            blocks.push_back(fit(6, t, 0, own));
-        for (const std::size_t pattern : bestPatterns(t))
+            blocks.push_back(fit(6, t, whole, std::size_t(own) + 1, 0, own));
+        const std::array<std::size_t, 2> patterns = bestPatterns(t);
+        const FourLines lines = linesThrough(t, linesOfPatterns(patterns[0], patterns[1]));
+        for (std::size_t k = 0; k < 2; ++k)
             for (const std::size_t mode : {2, 4})
-                blocks.push_back(fit(mode, t, pattern));
+                blocks.push_back(fit(mode, t, lines, 2 * k, patterns[k]));
     }
     std::ranges::sort(blocks, {}, &Block::error);
     blocks.resize(std::min<std::size_t>(blocks.size(), 3));

@@ -9,12 +9,14 @@
 #include <glm/vec3.hpp>
 
 #include "block.hpp"
+#include "block_texels.hpp"
 #include "image/uastc_modes.hpp"
 
 namespace cotan::maps::uastc {
 
 struct Texels {
-    std::array<glm::vec3, 16> codes, normals; // 0 to 255; unit vectors, or zero if lengths count
+    std::array<glm::vec3, 16> codes;                    // 0 to 255
+    std::array<Values, 3> codeChannels, normalChannels; // the codes again; unit vectors, or zero if lengths count
 };
 
 // The texels of a block. lengths: these count too.
@@ -24,11 +26,14 @@ Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale, boo
 struct EndpointValue {
     int value = 0, digit = 0, low = 0;
 };
-using EndpointValues = std::vector<EndpointValue>;
+struct EndpointTable {
+    std::vector<EndpointValue> values;
+    std::array<std::int16_t, 256> notBelow{}; // the index of the first value that is not below a code
+};
 
-const EndpointValues& endpointValues(std::size_t mode);
+const EndpointTable& endpointTable(std::size_t mode);
 
-// The block in a mode: for each subset two ends, as indices of endpointValues, and for each texel a weight of each
+// The block in a mode: for each subset two ends, as indices of an EndpointTable, and for each texel a weight of each
 // plane, 0 to 2^weightBits - 1.
 struct Block {
     std::size_t mode = 0, pattern = 0;
