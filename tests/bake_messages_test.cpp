@@ -100,6 +100,28 @@ TEST_F(BakeMessages, missesAreCountedAndWarningsNameTheOptions)
                  {}); // a part that floats is the first surface, as it should be
 }
 
+TEST_F(BakeMessages, anExtrusionThatReachesBeyondAnotherPartIsWarnedOf)
+{
+    // A floor in the left half of the map, below a slab with its bottom and top.
+    std::string parts;
+    for (const auto& [z, u, width, faces] : {std::tuple(0.0, 0.0, 0.5, "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n"),
+                                             {0.3, 0.5, 0.25, "f 5/5 7/7 6/6\nf 5/5 8/8 7/7\n"},
+                                             {0.5, 0.75, 0.25, "f 9/9 10/10 11/11\nf 9/9 11/11 12/12\n"}}) {
+        for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+            parts += fmt::format("v {} {} {}\nvt {} {}\n", x, y, z, u + width * x, y);
+        parts += faces;
+    }
+    write("parts.obj", parts);
+    const std::string words = "--high parts.obj --low parts.obj --json r.json --extrusion ";
+    expectWarned(words + "0.2", {});
+    expectWarned(words + "0.4", {}); // starts in the slab, whose bottom faces away
+    expectWarned(words + "0.6",
+                 {"32 of 64 covered texels, most of them around texel 1, 1, show another part: rays start 0.6 units in "
+                  "front of the low mesh, beyond that part: start them nearer, or give no distance, so that it is "
+                  "measured (--extrusion)"});
+    EXPECT_NE(readWhole(folder / "r.json").find(R"("kind": "beyond_part")"), std::string::npos);
+}
+
 TEST_F(BakeMessages, framesOfTrianglesAndTilesWithoutTexelsAreWarnedOf)
 {
     const std::string crease =

@@ -39,11 +39,12 @@ Scene placed(Scene scene, const glm::mat4& where)
     return scene;
 }
 
-BakedModel baked(const Scene& low, Scene high, int side = 96)
+BakedModel baked(const Scene& low, Scene high, int side = 96, float extrusion = 0)
 {
     BakeModelOptions options;
     options.bake.frame = Frame::mikktspace;
     options.bake.width = options.bake.height = side;
+    options.bake.extrusion = extrusion;
     options.mask = true;
     HighModel detailed;
     detailed.scenes.push_back(std::move(high));
@@ -163,6 +164,63 @@ TEST(BakeVerdict, theCauseOfABadBakeIsNamed)
         const BakeProblem below =
             worst(baked(sceneOfMeshes({makeSphere(1, 32)}), sceneOfMeshes({inside})), Kind::belowHorizon, which);
         EXPECT_GT(below.degrees, 45) << which;
+    }
+}
+
+// A floor in the texels from the left to the middle, and above it a slab whose bottom and top have the other quarters.
+// Waves move the detail by up to `height`.
+Scene floorUnderSlab(float bottom, float top, float height, int segments)
+{
+    const auto part = [&](float y, bool up, float begin, float end) {
+        Mesh mesh = makePlane(2, segments, 1);
+        for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+            glm::vec3& p = mesh.positions[v];
+            const float wave = height * std::sin(9 * p.x + y) * std::sin(7 * p.z);
+            p = {up ? p.x : -p.x, y + (up ? wave : -wave), p.z};
+            mesh.normals[v].y = up ? 1 : -1;
+            mesh.texcoords[0][v].x = begin + (end - begin) * mesh.texcoords[0][v].x;
+        }
+        return mesh;
+    };
+    return sceneOfMeshes({part(0, true, 0, 0.5f), part(bottom, false, 0.5f, 0.75f), part(top, true, 0.75f, 1)});
+}
+
+TEST(BakeVerdict, raysThatStartBeyondAnotherPartAreNamed)
+{
+    for (unsigned seed = 0; seed < 6; ++seed) {
+        Drawn drawn(seed);
+        const std::string which = "seed " + std::to_string(seed);
+        const float bottom = drawn.between(0.15f, 0.3f), top = bottom + drawn.between(0.1f, 0.2f);
+        const auto with = [&](float extrusion, int side) {
+            return baked(floorUnderSlab(bottom, top, 0, 1), floorUnderSlab(bottom, top, 0.01f, 24), side, extrusion);
+        };
+        for (const float extrusion : {0.0f, 0.05f, 0.6f * bottom, (bottom + top) / 2}) // the last begin in the slab
+            expectUsable(with(extrusion, 96), which + ", " + std::to_string(extrusion));
+        for (const int side : {96, seed == 0 ? 512 : 128}) { // the larger one in cells of several texels
+            const BakeProblem problem = worst(with(top + 0.1f, side), Kind::beyondPart, which);
+            EXPECT_EQ(problem.texels, std::size_t(side) * std::size_t(side) / 2) << which << ": those of the floor";
+            EXPECT_LT(problem.at.x, side / 2) << which;
+            EXPECT_NE(problem.text.find("start them nearer"), std::string::npos) << problem.text;
+        }
+    }
+}
+
+// A ball that is sunk into the floor covers a part of it, which nobody sees.
+TEST(BakeVerdict, raysThatStartBeyondAPartWhichCoversThemAreNoProblem)
+{
+    for (unsigned seed = 0; seed < 6; ++seed) {
+        Drawn drawn(seed);
+        const auto scene = [&, radius = drawn.between(0.1f, 0.3f)](int segments) {
+            Mesh floor = makePlane(2, 1, 1), ball = makeSphere(radius, segments);
+            for (glm::vec2& uv : floor.texcoords[0])
+                uv.x /= 2;
+            for (glm::vec2& uv : ball.texcoords[0])
+                uv.x = 0.5f + uv.x / 2;
+            return sceneOfMeshes({floor, ball});
+        };
+        const BakedModel model = baked(scene(16), scene(64), 96, drawn.between(0.7f, 1));
+        for (const BakeProblem& problem : model.maps[0].problems)
+            EXPECT_NE(problem.kind, Kind::beyondPart) << "seed " << seed << ": " << problem.text;
     }
 }
 

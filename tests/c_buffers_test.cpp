@@ -80,7 +80,7 @@ struct TwoTriangles {
     std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
     cotan_mesh mesh() const
     {
-        return {sizeof(cotan_mesh), 5, positions.data(), normals.data(), texcoords.data(), 6, indices.data()};
+        return {sizeof(cotan_mesh), 5, positions.data(), normals.data(), texcoords.data(), 6, indices.data(), nullptr};
     }
 };
 
@@ -113,7 +113,8 @@ TEST(CBuffers, onlyMikktspaceTangentsAreZeroWhereDirectionsCancel)
     const std::vector<float> normals{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
     const std::vector<float> texcoords{0, 0, 1, 0, 0, -1, 0, 1, 1, 0};
     const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3, 0, 3, 4};
-    const cotan_mesh mesh{sizeof(cotan_mesh), 5, positions.data(), normals.data(), texcoords.data(), 9, indices.data()};
+    const cotan_mesh mesh{sizeof(cotan_mesh), 5, positions.data(), normals.data(),
+                          texcoords.data(),   9, indices.data(),   nullptr};
     for (const bool mikktspace : {true, false}) {
         Guarded<float> tangents(4 * mesh.index_count);
         ASSERT_EQ(
@@ -521,7 +522,7 @@ TEST(CBuffers, resultsAreWrittenUpToTheStatedAndKnownSize)
     const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, uvs[] = {0, 1, 1, 1, 1, 0, 0, 0};
     const float normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
     const std::uint32_t indices[] = {0, 1, 2, 0, 2, 3};
-    const cotan_mesh mesh = {sizeof(cotan_mesh), 4, positions, normals, uvs, 6, indices};
+    const cotan_mesh mesh = {sizeof(cotan_mesh), 4, positions, normals, uvs, 6, indices, nullptr};
     Guarded<std::uint8_t> pixels(8 * 8 * 4);
     cotan_image_view map = pictureOf(pixels.data(), 8, 8);
     for (const std::size_t size :

@@ -50,7 +50,7 @@ struct Grid {
     cotan_mesh mesh() const
     {
         return {sizeof(cotan_mesh), positions.size() / 3, positions.data(), normals.data(),
-                uv.data(),          indices.size(),       indices.data()};
+                uv.data(),          indices.size(),       indices.data(),   nullptr};
     }
 };
 

@@ -32,7 +32,7 @@ const float kPositions[] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 0}, kNormals[] = {0
             kUvs[] = {0, 1, 1, 1, 1, 0, 0, 0};
 const std::uint32_t kIndices[] = {0, 1, 2, 0, 2, 3};
 
-cotan_mesh rectangle() { return {sizeof(cotan_mesh), 4, kPositions, kNormals, kUvs, 6, kIndices}; }
+cotan_mesh rectangle() { return {sizeof(cotan_mesh), 4, kPositions, kNormals, kUvs, 6, kIndices, nullptr}; }
 
 // Two meshes of that rectangle. The map of the first is flat, that of the second tilted; the second also has a colour.
 constexpr char kTwoMaps[] =
@@ -224,7 +224,7 @@ struct Halves {
                 std::copy(position, position + 3, &positions[half][3 * v]);
                 std::copy(normal, normal + 3, &normals[half][3 * v]);
             }
-            meshes[half] = {sizeof(cotan_mesh), 4, positions[half], normals[half], nullptr, 6, kIndices};
+            meshes[half] = {sizeof(cotan_mesh), 4, positions[half], normals[half], nullptr, 6, kIndices, nullptr};
         }
         const cotan_mesh* const both[] = {&meshes[0], &meshes[1]};
         const char* const names[] = {"left", "right"};
@@ -343,6 +343,51 @@ TEST(CModels, severalMapsOfOneTraceAreAsEachAlone)
     EXPECT_EQ(first.bytes, Canvas(8).bytes) << "unwritten after errors";
     EXPECT_EQ(second.bytes, Canvas(8).bytes) << "unwritten after errors";
     cotan_model_free(low);
+}
+
+TEST(CModels, coloursOfMeshesAreIdsAndSteerRays)
+{
+    const float paint[2][16] = {{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1},
+                                {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1}};
+    float moved[12];
+    for (int i = 0; i < 12; ++i)
+        moved[i] = kPositions[i] / (i % 3 == 0 ? 2 : 1);
+    cotan_mesh left = rectangle(), whole = rectangle(), low = rectangle();
+    left.positions = moved, left.colors = paint[0]; // the first of two surfaces that a ray meets counts
+    whole.colors = paint[1];
+    const float behind[] = {0, 0, -0.01f, 2, 0, -0.01f, 2, 1, -0.01f, 0, 1, -0.01f};
+    whole.positions = behind;
+    cotan_model *a = modelOf(left), *b = modelOf(whole);
+    const cotan_model* const highs[] = {a, b};
+    cotan_bake_options options = COTAN_INIT(cotan_bake_options);
+    options.kind = "id", options.id_by = "vertex-color", options.samples = 1;
+    const auto bake = [&](const cotan_mesh& simple, Canvas& canvas) {
+        cotan_model* const model = modelOf(simple);
+        const cotan_status done =
+            cotan_bake_models(model, 2, highs, &options, &canvas.view, nullptr, nullptr, why, sizeof why);
+        cotan_model_free(model);
+        return done;
+    };
+    Canvas canvas(8);
+    if (bake(low, canvas) != COTAN_UNAVAILABLE) {
+        for (std::size_t x = 0; x < 6; ++x)
+            for (std::size_t k = 0; k < 3; ++k)
+                EXPECT_EQ(canvas.bytes[4 * x + k], k == (x < 3 ? 0u : 2u) ? 255 : 0) << x;
+        options.rays = "vertex-color";
+        expectError(bake(low, canvas), "options.rays: expected vertex colours in the low mesh; found none",
+                    COTAN_INPUT);
+        low.colors = paint[0];
+        EXPECT_EQ(bake(low, canvas), COTAN_OK) << why;
+        low.size = offsetof(cotan_mesh, colors); // of an older caller, whose struct ends here
+        expectError(bake(low, canvas), "options.rays: expected vertex colours in the low mesh; found none",
+                    COTAN_INPUT);
+        float bad[16] = {};
+        bad[9] = NAN;
+        low = rectangle(), low.colors = bad;
+        expectError(bake(low, canvas), "low: mesh 0: colour 2: expected finite numbers", COTAN_INPUT);
+    }
+    cotan_model_free(a);
+    cotan_model_free(b);
 }
 
 TEST(CModels, trianglesOnOtherTilesThanTheBakedOneAreNamed)

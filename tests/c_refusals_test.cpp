@@ -31,7 +31,7 @@ struct Square {
     std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
     cotan_mesh mesh() const
     {
-        return {sizeof(cotan_mesh), 4, positions.data(), normals.data(), texcoords.data(), 6, indices.data()};
+        return {sizeof(cotan_mesh), 4, positions.data(), normals.data(), texcoords.data(), 6, indices.data(), nullptr};
     }
 };
 
@@ -130,6 +130,8 @@ TEST(CRefusals, meshFunctionsRequireTheArraysTheyRead)
         mesh.index_count = 0;
         EXPECT_EQ(call(&mesh), COTAN_OK) << refusal;
         mesh = good;
+        mesh.size = offsetof(cotan_mesh, colors); // that of older callers
+        EXPECT_EQ(call(&mesh), COTAN_OK) << refusal;
         mesh.size -= 1;
         expectRefused(call(&mesh), "mesh.size");
         for (const std::size_t wrong : {4u, 5u}) {

@@ -34,7 +34,8 @@ Json describe(const BakeStatistics& s)
 constexpr Named<BakeProblem::Kind> kProblems[] = {{"no_surface", BakeProblem::Kind::noSurface},
                                                   {"too_far", BakeProblem::Kind::tooFar},
                                                   {"below_horizon", BakeProblem::Kind::belowHorizon},
-                                                  {"disputed", BakeProblem::Kind::disputed}};
+                                                  {"disputed", BakeProblem::Kind::disputed},
+                                                  {"beyond_part", BakeProblem::Kind::beyondPart}};
 
 // The options that help against a problem. objects: that share the map.
 std::string optionsAgainst(const BakeJob& job, std::size_t objects, const BakeProblem& problem)
@@ -49,6 +50,7 @@ std::string optionsAgainst(const BakeJob& job, std::size_t objects, const BakePr
         return objects > 1
             ? fmt::format("--per-object makes a map for each of the {} objects, --object NAME one; {}", objects, mask)
             : mask;
+    case BakeProblem::Kind::beyondPart: return "--extrusion";
     default: return mask;
     }
 }

@@ -29,7 +29,7 @@ int main(void)
     const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1},
                 uv[] = {1, 1, 0, 1, 1, 0};
     const uint32_t indices[] = {0, 1, 2};
-    const cotan_mesh mesh = {sizeof mesh, 3, positions, normals, uv, 3, indices};
+    const cotan_mesh mesh = {sizeof mesh, 3, positions, normals, uv, 3, indices, NULL};
     float tangents[12];
     check(cotan_tangents("mikktspace", &mesh, 1, tangents, message, sizeof message), message);
     printf("tangent %g %g %g, w %g\n", tangents[0], tangents[1], tangents[2], tangents[3]);
@@ -58,7 +58,7 @@ int main(void)
 
     /* Bakes the triangle, with normals tilted towards -x, onto itself. Unavailable if the library lacks Embree. */
     const float leaning[] = {-0.6f, 0, 0.8f, -0.6f, 0, 0.8f, -0.6f, 0, 0.8f};
-    const cotan_mesh detailed = {sizeof detailed, 3, positions, leaning, NULL, 3, indices};
+    const cotan_mesh detailed = {sizeof detailed, 3, positions, leaning, NULL, 3, indices, NULL};
     double done = 0;
     cotan_bake_options options = COTAN_INIT(cotan_bake_options);
     options.progress = progress;

@@ -103,6 +103,9 @@ def steps():
         bpy.ops.object.cotan_bake("INVOKE_DEFAULT")
     while manager.cotan_progress < 40:
         yield 0.1
+    with within("PROPERTIES"):
+        bpy.ops.view2d.scroll_up(deltay=30)  # to the first field: the panel has shrunk
+    yield 0.5
     shoot("blender-progress.png")
     while manager.cotan_running:
         yield 0.2

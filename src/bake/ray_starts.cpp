@@ -210,8 +210,7 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
     COTAN_TRY(body, bodyOf(low, rest, options));
     starts.skip = kSkip * body->diagonal;
     starts.limit = options.maxDistance > 0 ? options.maxDistance : kLimit * body->diagonal;
-    if (!(options.extrusion > 0))
-        starts.tree = body->tree;
+    (options.extrusion > 0 ? starts.passed : starts.tree) = body->tree;
     const Status measured = withThreads(options.threads, [&]() -> Status {
         COTAN_TRY(found, measureStandOff(low, high, options, *body, groups, starts, edges));
         starts.distances = std::move(found->distances);

@@ -33,6 +33,7 @@ struct RayStarts {
     std::vector<float> distances;         // per vertex, model units; equal at equal positions of an instance
     std::vector<std::uint8_t> obstructed; // per triangle: other triangles may lie between it and where its rays start
     std::optional<LowTree> tree;          // of the low surface and LowRest; none: rays start at the full distance
+    std::optional<LowTree> passed;        // the same surfaces, if rays start at the full distance
     float farthest = 0;                   // maximum of `distances`
     float skip = 0;                       // parts of the low surface nearer than this to a point are ignored
     float limit = 0;                      // surfaces further away than this, in front or behind, do not count

@@ -107,59 +107,98 @@ Areas areasBelowHorizon(const Baked& normals)
     });
 }
 
-// Marks cells of `step` texels in which two triangles want normals that differ, in the frame or in the world.
-Marks disputes(const LowSurface& low, const Baker& baker, const std::vector<std::uint32_t>& indices,
-               const BakeOptions& options, bool inWorld, int step)
+struct TracedCells { // rays of the same number of cells
+    std::vector<UvSample> samples;
+    LowPoints points;
+    Probes probes;
+    Hits hits;
+};
+
+// Marks cells of `step` texels, some of those in which at least `each` triangles lie. examine(marks, cells, traced):
+// gets up to kLanes cells, and for each of the first `each` triangles what a ray of it finds.
+template<std::size_t each, class Examine>
+Marks marksOf(const LowSurface& low, const Baker& baker, const std::vector<std::uint32_t>& indices,
+              const BakeOptions& options, int step, const Examine& examine)
 {
     Marks marks((options.width + step - 1) / step, (options.height + step - 1) / step);
     marks.degrees.resize(marks.bad.size());
     const UvRaster raster({low.texcoords, indices}, marks.width, marks.height, options.tile);
-    const UvLimits two{.maxPerTexel = 2, .accepts = [](const UvSample& s) { return s.covers; }};
+    const UvLimits limits{.maxPerTexel = each, .accepts = [](const UvSample& s) { return s.covers; }};
     parallelRanges(0, marks.height, UvRaster::kBlockRows, [&](int begin, int end) {
         std::vector<UvRow> rows(static_cast<std::size_t>(end - begin));
-        raster.rows(begin, rows, two);
-        std::array<std::vector<UvSample>, 2> pairs;
+        raster.rows(begin, rows, limits);
+        std::array<TracedCells, each> traced;
         std::vector<std::size_t> cells;
-        std::array<Lanes3, 2> normals;
-        std::array<Lanes<int>, 2> found{};
-        const auto compare = [&] {
-            for (std::size_t k = 0; k < 2; ++k) {
-                LowPoints points;
-                Probes probes;
-                Hits hits;
-                pointsOf(low, pairs[k], points);
-                baker.aim(points, pairs[k], probes);
-                baker.find(pairs[k], probes, hits);
-                baker.valuesOf(inWorld ? BakeKind::objectNormal : BakeKind::normal, points, probes, hits, {}, {},
-                               normals[k]);
-                for (std::size_t i = 0; i < cells.size(); ++i)
-                    found[k][i] = hits.found(i);
+        const auto trace = [&] {
+            for (TracedCells& t : traced) {
+                pointsOf(low, t.samples, t.points);
+                baker.aim(t.points, t.samples, t.probes);
+                baker.find(t.samples, t.probes, t.hits);
             }
-            for (std::size_t i = 0; i < cells.size(); ++i) {
-                const glm::dvec3 a = normals[0].at(i), b = normals[1].at(i);
-                const double degrees = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * kDegrees;
-                if (!found[0][i] || !found[1][i] || !(degrees > kSameDegrees))
-                    continue;
-                marks.bad[cells[i]] = 1;
-                marks.degrees[cells[i]] = float(degrees);
-            }
-            pairs[0].clear(), pairs[1].clear(), cells.clear();
+            examine(marks, cells, traced);
+            for (TracedCells& t : traced)
+                t.samples.clear();
+            cells.clear();
         };
         for (int y = begin; y < end; ++y)
             for (int x = 0; x < marks.width; ++x) {
                 const auto samples = rows[std::size_t(y - begin)].of(std::size_t(x));
-                if (samples.size() < 2)
+                if (samples.size() < each)
                     continue;
-                pairs[0].push_back(samples[0]);
-                pairs[1].push_back(samples[1]);
+                for (std::size_t k = 0; k < each; ++k)
+                    traced[k].samples.push_back(samples[k]);
                 cells.push_back(marks.index(x, y));
                 if (cells.size() == kLanes)
-                    compare();
+                    trace();
             }
         if (!cells.empty())
-            compare();
+            trace();
     });
     return marks;
+}
+
+// Marks cells in which two triangles want normals that differ, in the frame or in the world.
+Marks disputes(const LowSurface& low, const Baker& baker, const std::vector<std::uint32_t>& indices,
+               const BakeOptions& options, bool inWorld, int step)
+{
+    const auto compare = [&](Marks& marks, const std::vector<std::size_t>& cells,
+                             const std::array<TracedCells, 2>& traced) {
+        std::array<Lanes3, 2> normals;
+        for (std::size_t k = 0; k < 2; ++k)
+            baker.valuesOf(inWorld ? BakeKind::objectNormal : BakeKind::normal, traced[k].points, traced[k].probes,
+                           traced[k].hits, {}, {}, normals[k]);
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const glm::dvec3 a = normals[0].at(i), b = normals[1].at(i);
+            const double degrees = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * kDegrees;
+            if (!traced[0].hits.found(i) || !traced[1].hits.found(i) || !(degrees > kSameDegrees))
+                continue;
+            marks.bad[cells[i]] = 1;
+            marks.degrees[cells[i]] = float(degrees);
+        }
+    };
+    return marksOf<2>(low, baker, indices, options, step, compare);
+}
+
+// Marks cells whose rays find the high surface beyond another part of the low surface, of which the cell sees the
+// front. A cell that sees a back lies in that part, where nobody sees it.
+Marks beyondParts(const LowSurface& low, const Baker& baker, const std::vector<std::uint32_t>& indices,
+                  const BakeOptions& options, int step)
+{
+    const RayStarts& starts = *options.starts;
+    const auto look = [&](Marks& marks, const std::vector<std::size_t>& cells,
+                          const std::array<TracedCells, 1>& traced) {
+        const auto& [samples, points, probes, hits] = traced[0];
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const float off = hits.distance[i]; // beyond the ray's start it is one of a second ray, from further out
+            if (!hits.found(i) || !(off > starts.skip) || off > probes.before[i])
+                continue;
+            const glm::vec3 out = probes.direction.at(i);
+            const LowTree::TreeHit part =
+                starts.passed->firstBeside(samples[i].triangle, {probes.point.at(i), out, starts.skip, off});
+            marks.bad[cells[i]] = part.found && glm::dot(starts.passed->face(part.triangle), out) < 0 ? 1 : 0;
+        }
+    };
+    return marksOf<1>(low, baker, indices, options, step, look);
 }
 
 BakeProblem problemOf(BakeProblem::Kind kind, const Areas& areas, std::size_t texelsOfMark = 1, int step = 1)
@@ -192,6 +231,11 @@ std::string textOf(const BakeProblem& p, const BakeOptions& options, const BakeS
         return fmt::format("{} point below the frame's horizon, by {:.0f} degrees on average: the low mesh is too "
                            "coarse there, or rays hit another part: split it there, or use a cage",
                            where, p.degrees);
+    case BakeProblem::Kind::beyondPart:
+        return fmt::format(
+            "{} show another part: rays start {:g} units in front of the low mesh, beyond that part: start "
+            "them nearer, or give no distance, so that it is measured",
+            where, options.extrusion);
     default:
         return fmt::format("{} are shared by triangles that need normals {:.0f} degrees apart on average; the first in "
                            "the file won: give each its own texture coordinates",
@@ -222,10 +266,19 @@ std::vector<BakeProblem> problemsOf(const LowSurface& low, const HighSurface& hi
     const auto normals = std::ranges::find(kinds, BakeKind::normal);
     if (s.negative > 0 && normals != kinds.end())
         problems.push_back(problemOf(belowHorizon, areasBelowHorizon(maps[std::size_t(normals - kinds.begin())])));
-    const auto drawn = s.twice > 0 ? indicesToDraw(low, {options.width, options.height})
-                                   : Result<std::vector<std::uint32_t>>(std::vector<std::uint32_t>());
-    if (drawn && !drawn->empty()) {
-        const int step = std::max(1, std::min(options.width, options.height) / kGrid);
+    const bool shares = s.twice > 0, passes = options.starts && options.starts->passed;
+    const auto drawn = shares || passes ? indicesToDraw(low, {options.width, options.height})
+                                        : Result<std::vector<std::uint32_t>>(std::vector<std::uint32_t>());
+    const int step = std::max(1, std::min(options.width, options.height) / kGrid);
+    if (drawn && !drawn->empty() && passes) {
+        Marks marks(0, 0);
+        withThreads(options.threads,
+                    [&] { marks = beyondParts(low, Baker(low, high, options), *drawn, options, step); });
+        problems.push_back(problemOf(beyondPart, areasOf(marks, [](std::size_t) { return 0.0f; }),
+                                     std::size_t(step) * std::size_t(step), step));
+        problems.back().texels = std::min(problems.back().texels, s.covered);
+    }
+    if (drawn && !drawn->empty() && shares) {
         const bool inWorld = std::ranges::any_of(kinds, [](BakeKind kind) {
             return kind == BakeKind::objectNormal || kind == BakeKind::objectBentNormal || kind == BakeKind::position;
         });

@@ -245,7 +245,7 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
                         cotan_image_view* map, cotan_bake_result* result, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        const cotan_mesh &simple = checkedMesh(low, "low", true), &detailed = checkedMesh(high, "high", false);
+        const cotan_mesh simple = checkedMesh(low, "low", true), detailed = checkedMesh(high, "high", false);
         HighModel model;
         model.scenes.push_back(sceneOf({meshOf(detailed)}, "high"));
         const cotan_bake_options o = optionsOf(options, "options");

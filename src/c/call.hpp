@@ -75,8 +75,9 @@ template<class T> const T& checked(const T* argument, const char* name)
     return *argument;
 }
 
-// The minimum size of an options struct: its size in the version that introduced it.
+// The minimum size of a struct that has grown: its size in the version that introduced it.
 template<class T> inline constexpr std::size_t kFirstSize = sizeof(T);
+template<> inline constexpr std::size_t kFirstSize<cotan_mesh> = offsetof(cotan_mesh, colors);
 template<> inline constexpr std::size_t kFirstSize<cotan_bake_options> = offsetof(cotan_bake_options, cage);
 template<> inline constexpr std::size_t kFirstSize<cotan_convert_options> = offsetof(cotan_convert_options, expansion);
 template<> inline constexpr std::size_t kFirstSize<cotan_lint_options> = offsetof(cotan_lint_options, limit);

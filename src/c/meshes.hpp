@@ -30,10 +30,11 @@ inline void checkIndices(const std::string& name, std::size_t vertexCount, std::
             fail(ErrorKind::input, name, "indices[", i, "]: expected less than ", vertexCount, ", found ", indices[i]);
 }
 
-inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const char* called, bool needsUv,
-                                     bool needsNormals = true)
+inline cotan_mesh checkedMesh(const cotan_mesh* given, const char* called, bool needsUv, bool needsNormals = true)
 {
-    const cotan_mesh& m = checked(given, called);
+    if (!given)
+        fail(ErrorKind::usage, called, ": expected a struct, found null");
+    const cotan_mesh m = optionsOf(given, called);
     if (m.vertex_count != 0 && !(m.positions && (m.normals || !needsNormals) && (m.texcoords || !needsUv)))
         fail(ErrorKind::usage, called, ": expected positions", needsNormals ? ", normals" : "",
              needsUv ? " and texcoords" : "", ", found null");
@@ -66,7 +67,7 @@ inline MeshView arraysOf(const cotan_mesh& m)
 // Checks a mesh with uv and returns its arrays.
 inline MeshView viewOf(const cotan_mesh* given)
 {
-    const cotan_mesh& m = checkedMesh(given, "mesh", /*needsUv*/ true);
+    const cotan_mesh m = checkedMesh(given, "mesh", /*needsUv*/ true);
     checkFinite("mesh.positions", m.positions, 3, m.vertex_count);
     checkFinite("mesh.normals", m.normals, 3, m.vertex_count);
     checkFinite("mesh.texcoords", m.texcoords, 2, m.vertex_count);
@@ -92,6 +93,9 @@ inline Mesh meshOf(const cotan_mesh& m)
     mesh.normals.assign(view.normals.begin(), view.normals.end());
     mesh.texcoords[0].assign(view.texcoords.begin(), view.texcoords.end());
     mesh.indices.assign(view.indices.begin(), view.indices.end());
+    if (m.colors)
+        mesh.colors.assign(reinterpret_cast<const glm::vec4*>(m.colors),
+                           reinterpret_cast<const glm::vec4*>(m.colors) + m.vertex_count);
     return mesh;
 }
 

@@ -240,6 +240,48 @@ def eachMaterialCanHaveItsOwnMap():
         assert used == ["low_normal"], used
 
 
+def raysFollowVertexColorsAndAMask():
+    # Two cubes with hard edges, one mirrored, in a sphere: straight and averaged rays hit it elsewhere.
+    mask = bpy.data.images.new("mask", 64, 64)
+    red = np.zeros((64, 64, 4), np.float32)  # rows from the bottom: straight in the lower half
+    red[:32, :, 0] = red[:, :, 3] = 1
+    mask.pixels = red.ravel().tolist()
+    for name, matrix in (("first", moved(1, 2, 3)), ("second", Matrix.Diagonal((-2, 2, 2, 1)))):
+        bpy.ops.mesh.primitive_cube_add()
+        low = bpy.context.object
+        low.name = name
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32, radius=2)
+        high = bpy.context.object
+        bpy.ops.object.shade_smooth()
+        low.matrix_world, high.matrix_world = matrix, matrix @ moved(0.2, 0.1)
+        facts.painted(low, "Straight", (1, 0, 0))
+        unnamed = facts.painted(low, "", (0, 1, 1), "POINT", "FLOAT_COLOR")
+
+        def map_of(directions, **more):
+            return baked(low, high, distance=4, directions=directions, **{"rays_mask": None, "rays_colors": "", **more})
+
+        straight, averaged = map_of("STRAIGHT"), map_of("AVERAGED")
+        apart, same = degrees(straight, averaged), 0.003  # a step of 16 bits
+        assert apart[33:].max() > 5 and apart[:31].max() > 5
+        active = map_of("VERTEX_COLOR")  # that without a name of its own
+        assert degrees(active, averaged).max() < same
+        assert degrees(map_of("VERTEX_COLOR", rays_colors=unnamed), averaged).max() < same
+        assert degrees(map_of("VERTEX_COLOR", rays_colors="Straight"), straight).max() < same
+        for directions in ("AUTO", "VERTEX_COLOR"):  # which the mask replaces
+            both = map_of(directions, rays_mask=mask)
+            assert degrees(both[33:], straight[33:]).max() < same
+            assert degrees(both[:31], averaged[:31]).max() < same
+        select(high, low)
+        settings(directions="VERTEX_COLOR", rays_mask=None, rays_colors="Missing")
+        text = facts.error_of(bpy.ops.object.cotan_bake)
+        assert text == f"'{name}' has no color attribute 'Missing'", text
+        settings(rays_mask=bpy.data.images.new("empty", 0, 0))
+        empty = bpy.context.scene.cotan.rays_mask
+        empty.source, empty.filepath = "FILE", os.path.join(facts.FOLDER, "nowhere.png")
+        text = facts.error_of(bpy.ops.object.cotan_bake)
+        assert text == f"'{empty.name}' has no pixels, or its file is missing", text
+
+
 def two_hills():
     """A flat square above, and one tilted along x below, behind the simple mesh."""
     near = square("near", half=2, z=0.5)

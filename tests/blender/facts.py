@@ -75,6 +75,17 @@ def make_mesh(name, vertices, faces, uv=None, matrix=None, smooth=True):
     return made
 
 
+def painted(thing, name, color, domain="CORNER", kind="BYTE_COLOR"):
+    """Gives the object's mesh a colour attribute and makes it the active one. color: linear (red, green, blue), of all
+    vertices or for each. Blender names one without a name itself. Returns its name."""
+    layer = thing.data.color_attributes.new(name=name, type=kind, domain=domain)
+    values = np.ones((len(layer.data), 4), np.float32)
+    values[:, :3] = color
+    layer.data.foreach_set("color", values.ravel())
+    thing.data.color_attributes.active_color = thing.data.color_attributes[layer.name]
+    return layer.name
+
+
 def material_with_nodes(name):
     """A new material with a Principled BSDF. Blender 6 has no use_nodes."""
     material = bpy.data.materials.new(name)

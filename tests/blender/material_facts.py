@@ -99,6 +99,37 @@ def idsOfObjectsAreTheirNames():
     expect_sides(maps["id"], (128, 0, 0), (128, 0, 0), 0)
 
 
+def idsOfVertexColorsAreThoseOfTheActiveOrTheNamedAttribute():
+    # Each object has two attributes, of which the left one has one without a name.
+    low, paint = square(), material("paint", (0.5, 0.25, 1))
+    left, right = half("left", -1, paint), half("right", 1, paint)
+    facts.painted(left, "Col", (1, 0, 0))
+    unnamed = facts.painted(left, "", (0.2, 0.4, 0.8), "POINT", "FLOAT_COLOR")
+    facts.painted(right, "Other", (0, 1, 0), "POINT")
+    facts.painted(right, "Col", (0.1, 0.6, 0.3))
+    blue, green = np.rint(srgb((0.2, 0.4, 0.8))), np.rint(srgb((0.1, 0.6, 0.3)))
+    wanted = {"id_by": "VERTEX_COLOR", "assign": False}
+    for name, of_left, of_right in (("", blue, green), ("Col", (255, 0, 0), green), (unnamed, blue, (255, 255, 255)),
+                                    ("Other", (255, 255, 255), (0, 255, 0))):  # fmt: skip
+        maps, outcome = baked(low, left, right, maps={"normal", "id"}, id_colors=name, **wanted)
+        assert not outcome.failures and not outcome.notes, outcome
+        expect_sides(maps["id"], of_left, of_right, 0)
+        assert "cotan_ids" not in bpy.data.images["low_id"]
+    # Beside maps of materials, of whose base colour they are no factor.
+    maps, outcome = baked(low, left, right, maps=ALL - {"emissive"} | {"normal"}, id_colors="", **wanted)
+    assert set(maps) == ALL - {"emissive"} | {"normal"} and not outcome.failures and not outcome.notes, outcome
+    expect_sides(maps["id"], blue, green, 0)
+    expect_sides(maps["base-color"], srgb((0.5, 0.25, 1)), srgb((0.5, 0.25, 1)))
+    assert np.unique(maps["normal"][..., :3].reshape(-1, 3), axis=0).tolist() == [[128, 128, 255]]
+    for name, why in (("Missing", "No detailed mesh has color attribute 'Missing'"),
+                      ("", "No detailed mesh has vertex colors: paint some")):  # fmt: skip
+        _, outcome = baked(low, left, right, maps={"normal", "id"}, id_colors=name, **wanted)
+        assert not outcome.made and outcome.failures == [why], outcome
+        for thing in (left, right):
+            for layer in list(thing.data.color_attributes):
+                thing.data.color_attributes.remove(layer)
+
+
 def materialsOfObjectsCountBeforeThoseOfMeshes():
     low, high = square(), half("a", -1, material("of mesh"))
     twin = bpy.data.objects.new("b", high.data)

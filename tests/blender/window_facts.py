@@ -74,6 +74,11 @@ def steps():
         bpy.ops.object.cotan_bake("INVOKE_DEFAULT")
     yield 20, lambda: not manager.cotan_running
     assert bpy.data.images["low_normal"]
+    for mask in (None, bpy.data.images.new("mask", 4, 4)):  # the fields that some settings add
+        facts.settings(maps={"normal", "id"}, id_by="VERTEX_COLOR", directions="VERTEX_COLOR", rays_mask=mask)
+        drawn.clear()
+        context()["area"].tag_redraw()
+        yield 5, lambda: "OBJECT_PT_cotan_bake" in drawn
     bpy.ops.object.cotan_check()
     yield 1, None
     assert drawn == {panel.bl_idname for panel in cotan_blender.panel.CLASSES}, drawn

@@ -316,3 +316,31 @@ def test_errors_in_meshes_name_keyword_or_mesh():
         with pytest.raises(cotan.InputError) as caught:
             call()
         assert caught.value.field == field, str(caught.value)
+
+
+def test_colours_of_meshes_are_ids_and_steer_rays():
+    # Two squares that meet in a hard edge, under one large square: rays along their normals hit it elsewhere than averaged.
+    half = np.float32([[0, 0], [1, 0], [1, 1], [0, 1]])
+    left, right = np.c_[-half[:, 0], half[:, 1], -half[:, 0]], np.c_[half[:, 0], half[:, 1], -half[:, 0]]
+    normals = np.repeat(np.float32([[-1, 0, 1], [1, 0, 1]]) / np.sqrt(np.float32(2)), 4, axis=0)
+    uv = np.r_[half * [0.5, 1], half * [0.5, 1] + [0.5, 0]]
+    indices = [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7]
+    over = bumps()
+    purple = np.tile([0.5, 0, 1, 1], (len(over.positions), 1))
+    high = cotan.Mesh((over.positions - [0.5, 0, 0]) * [3, 1, 1] + [0, 0, 0.1], over.indices, over.normals, colors=purple)
+
+    def map_of(red, **options):
+        colors = None if red is None else np.tile(np.float32([red, 0.5, 0, 1]), (8, 1))
+        low = cotan.Mesh(np.r_[left, right], indices, normals, uv, colors=colors)
+        return cotan.bake(low, high, size=16, padding=-1, max_distance=3, **options).map
+
+    straight, averaged = map_of(None, rays="straight"), map_of(None, rays="averaged")
+    assert np.abs(straight.astype(int) - averaged).max() > 9
+    for red, wanted in ((1, straight), (0, averaged)):
+        assert np.abs(map_of(red, rays="vertex-color").astype(int) - wanted).max() <= 1
+    ids = map_of(None, kind="id", id_by="vertex-color")[..., :3].reshape(-1, 3)
+    assert {tuple(code) for code in ids} - {(0, 0, 0)} == {(188, 0, 255)}  # sRGB of one half is 187.5
+    with pytest.raises(cotan.InputError, match="rays: expected vertex colours in the low mesh; found none"):
+        map_of(None, rays="vertex-color")
+    with pytest.raises(cotan.UsageError, match=r"colors: expected shape \(4, 4\), found \(4, 3\)"):
+        cotan.Mesh(square().positions, [0, 1, 2], colors=np.zeros((4, 3)))

@@ -32,7 +32,7 @@ class CMesh(Struct):
         (size_t, "vertex_count"),
         (pointer, "positions normals texcoords"),
         (size_t, "index_count"),
-        (pointer, "indices"),
+        (pointer, "indices colors"),
     )
 
 

@@ -27,6 +27,7 @@ class Mesh:
         normals: (n, 3) float32, of length one; None: `bake` computes smooth normals, all other functions need them.
         texcoords: (n, 2) float32, v down as in glTF (OBJ and Blender: 1 - v); None if the mesh has none.
         name: used in messages, and by `bake` with match_by_name.
+        colors: (n, 4) float32, linear red, green, blue, alpha; read by models and `bake`. None if the mesh has none.
 
     Raises UsageError for other shapes and for dtypes that are not numbers.
     """
@@ -36,6 +37,7 @@ class Mesh:
     normals: Optional[Floats] = None
     texcoords: Optional[Floats] = None
     name: str = ""
+    colors: Optional[Floats] = None
 
     def __init__(
         self,
@@ -44,6 +46,7 @@ class Mesh:
         normals: Optional[ArrayLike] = None,
         texcoords: Optional[ArrayLike] = None,
         name: str = "",
+        colors: Optional[ArrayLike] = None,
     ) -> None:
         self.positions = arrays.floats(positions, "positions", 3)
         count = len(self.positions)
@@ -51,6 +54,7 @@ class Mesh:
         self.normals = None if normals is None else arrays.floats(normals, "normals", 3, count)
         self.texcoords = None if texcoords is None else arrays.floats(texcoords, "texcoords", 2, count)
         self.name = name
+        self.colors = None if colors is None else arrays.floats(colors, "colors", 4, count)
 
     def __repr__(self) -> str:
         return f"Mesh(name={self.name!r}, vertices={len(self.positions)}, triangles={len(self.indices) // 3})"
@@ -64,6 +68,7 @@ class Mesh:
             texcoords=arrays.at(self.texcoords),
             index_count=len(self.indices),
             indices=arrays.at(self.indices),
+            colors=arrays.at(self.colors),
         )
 
 

@@ -29,6 +29,7 @@ class Bake:
     """The maps of the same texels, whose rays are traced once."""
 
     slots: list  # material slots of the simple object that will use the maps; empty: the object has none yet
+    first: bool  # of those of the same texels: tells of their problems
     arguments: dict  # for cotan.bake_maps, without the maps and the progress function
     maps: list = dataclasses.field(default_factory=list)
 
@@ -74,6 +75,22 @@ def check_low(low, settings):
             nodes.writable(slot.material)
 
 
+def _details(context, settings, highs, depsgraph):
+    """The detailed side: a list of (cotan.Mesh or cotan.Model, words of the maps that are baked from it), and notes. Maps
+    of materials need a model without vertex colours, which would be factors of the base colour in it; ids of vertex colours
+    a mesh with them."""
+    wanted = [word for word, *_ in MAPS if word in settings.maps]
+    paint = settings.id_colors if "id" in wanted and settings.id_by == "VERTEX_COLOR" else None
+    painted = ["id"] if paint is not None else []
+    joined = meshes.joined(meshes.high_surfaces(highs, depsgraph, paint))
+    shown = [word for word in materials.SHOWN if word in wanted and word not in painted]
+    mesh = packages().Mesh(*joined[:3], colors=joined[3])
+    if not shown:
+        return [(mesh, wanted)], []
+    model, lacks = materials.model_of(context, highs, depsgraph, shown)
+    return [(model, [word for word in wanted if word not in painted])] + [(mesh, painted)] * bool(painted), lacks
+
+
 def prepare(context, settings, pair):
     """The bakes of a pair, the name of their uv map, and notes in sentences. Raises Refused."""
     low = pair.low
@@ -84,16 +101,11 @@ def prepare(context, settings, pair):
         raise Refused(f"There is no visible object named like '{low.name}' with 'high' or 'hi' instead of 'low'")
     others = [o for o in (pair.cage, settings.cage_object, context.scene.render.bake.cage_object) if o is not None]
     with meshes.as_rendered(context, [low, *pair.highs, *others], settings.as_rendered) as depsgraph:
-        surface = meshes.low_surface(low, depsgraph, settings.uv_map)
+        surface = meshes.low_surface(low, depsgraph, settings.uv_map, cages.rays_colors(settings))
         rays = cages.cage_for(settings, context.scene.render.bake, surface, low, pair.cage, depsgraph)
         matrix = low.evaluated_get(depsgraph).matrix_world.copy()
-        positions, normals, triangles = meshes.joined(meshes.high_surfaces(pair.highs, depsgraph))
-        shown, notes = [word for word in materials.SHOWN if word in settings.maps], _notes_on(low, matrix)
-        if shown:
-            high, lacks = materials.model_of(context, pair.highs, depsgraph, shown)
-            notes += lacks
-        else:
-            high = packages().Mesh(positions, triangles, normals)
+        details, notes = _details(context, settings, pair.highs, depsgraph)
+        notes = _notes_on(low, matrix) + notes
     surface = meshes.placed(surface, matrix, low.name)
     cotan = packages()
     common = {
@@ -103,7 +115,7 @@ def prepare(context, settings, pair):
         "bits": int(settings.bits),
         "samples": int(settings.samples),
         "padding": settings.padding,
-        "id_by": settings.id_by.lower(),
+        "id_by": settings.id_by.lower().replace("_", "-"),
     }
     bakes, names = [], []
     parts = _slots_of(low, surface, settings.each_material)
@@ -112,17 +124,18 @@ def prepare(context, settings, pair):
         part = "" if len(parts) == 1 else f"_{material.name if material else slots[0]}"
         chosen = surface.triangles[own]
         _check_uv(low, surface.texcoords, chosen, surface.uv_map)
-        mesh = cotan.Mesh(surface.positions, chosen, surface.normals, surface.texcoords)
-        arguments = {"low": mesh, "high": high, **common, **rays}
+        mesh = cotan.Mesh(surface.positions, chosen, surface.normals, surface.texcoords, colors=surface.colors)
+        arguments = {"low": mesh, **common, **rays}
         if "cage" in rays:
             arguments["cage"] = cotan.Mesh(rays["cage"], chosen, surface.normals)
-        bakes.append(Bake(slots, arguments))
-        for kind in [word for word, *_ in MAPS if word in settings.maps]:
-            name = f"{low.name}{part}_{kind.replace('-', '_')}"
-            owner = "\n".join([low.name, part] + [kind] * (kind != "normal"))
-            names.append(images.part_for(owner, name, names))
-            path = images.file_for(settings, owner, name, names[-1])
-            bakes[-1].maps.append(Map(name, owner, names[-1], kind, path))
+        for high, kinds in details:
+            bakes.append(Bake(slots, high is details[0][0], {"high": high, **arguments}))
+            for kind in kinds:
+                name = f"{low.name}{part}_{kind.replace('-', '_')}"
+                owner = "\n".join([low.name, part] + [kind] * (kind != "normal"))
+                names.append(images.part_for(owner, name, names))
+                path = images.file_for(settings, owner, name, names[-1])
+                bakes[-1].maps.append(Map(name, owner, names[-1], kind, path))
     return bakes, surface.uv_map, notes
 
 
@@ -189,7 +202,7 @@ def _store(settings, low, bake, work, uv_map, outcome):
         if work.baked[made.kind].ids:
             image["cotan_ids"] = {name: "#%02x%02x%02x" % color for name, color in work.baked[made.kind].ids.items()}
         outcome.made.append(image)
-        if made is bake.maps[0]:  # the same for all
+        if bake.first and made is bake.maps[0]:  # the same for all
             outcome.notes += _notes_of(work.baked[made.kind], image.name)
         if settings.assign and made.kind == "normal":
             _put(low, bake.slots, image, uv_map, outcome)

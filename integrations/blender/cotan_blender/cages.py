@@ -6,6 +6,7 @@ import re
 import bpy
 import numpy as np
 
+from .images import pixels_of
 from .meshes import as_rendered, got, mesh_of, placed
 from .refused import Refused, packages
 
@@ -62,14 +63,23 @@ def _cage_name(name):
     return re.sub(r"(?i)(?<![a-z0-9])(low|lo|lp|lowpoly)(?![a-z0-9])", "cage", name)
 
 
+def rays_colors(settings):
+    """The name of the colour attribute of the simple mesh that says which way rays run, "" for its active one; None if none
+    does."""
+    painted = settings.cage == "FIRST" and settings.directions == "VERTEX_COLOR" and settings.rays_mask is None
+    return settings.rays_colors if painted else None
+
+
 def cage_for(settings, bake, surface, low, named, depsgraph):
     """Arguments for cotan.bake: the start and the reach of rays.
 
     surface: the object `low` in its own space. bake: Blender's own settings. named: a cage found by name, or None.
     """
     if settings.cage == "FIRST":
-        rays = settings.directions.lower()
-        return {"rays": rays, "extrusion": settings.extrusion, "max_distance": settings.distance}
+        rays = {"extrusion": settings.extrusion, "max_distance": settings.distance}
+        if settings.rays_mask is not None:
+            return {"rays_mask": pixels_of(settings.rays_mask), **rays}
+        return {"rays": settings.directions.lower().replace("_", "-"), **rays}
     if settings.cage == "NEAREST":
         return {"search": "nearest", "max_distance": settings.distance}
     if settings.cage == "MESH":

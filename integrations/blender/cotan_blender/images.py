@@ -9,8 +9,11 @@ from .refused import Refused, packages
 
 
 def pixels_of(image):
-    """The pixels of an image, (height, width, 4), rows from the top: uint8, or float32 for more than 8 bits."""
+    """The pixels of an image, (height, width, 4), rows from the top: uint8, or float32 for more than 8 bits. Raises Refused
+    if it has none."""
     width, height = image.size
+    if width == 0 or height == 0:
+        raise Refused(f"'{image.name}' has no pixels, or its file is missing")
     values = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(values)
     values = values.reshape(height, width, 4)[::-1]

@@ -23,6 +23,7 @@ class Surface:
     vertex_count: int  # vertices of Blender's mesh
     smooth: np.ndarray  # (n, 3) float32: normal of Blender's vertex, smooth even at sharp edges
     texcoords: Optional[np.ndarray] = None  # (n, 2) float32, v down
+    colors: Optional[np.ndarray] = None  # (n, 4) float32, linear
     uv_map: str = ""
 
 
@@ -56,22 +57,36 @@ def _uv_of(mesh, name, wanted):
     return layer
 
 
-def surface_of(mesh, name, with_uv=False, uv_map=""):
-    """The Surface of a mesh in object space. Raises Refused if the mesh has no faces or lacks the uv map."""
+def _colors_of(mesh, wanted):
+    """The colour attribute of a mesh with this name, the active one for ""; None if there is none, or `wanted` is None."""
+    layers = mesh.color_attributes
+    if wanted is None or len(layers) == 0:
+        return None
+    return layers.get(wanted) if wanted else layers.active_color or layers[0]
+
+
+def surface_of(mesh, name, with_uv=False, uv_map="", colors=None):
+    """The Surface of a mesh in object space. colors: name of its colour attribute, "" for the active one, None for none.
+    Raises Refused if the mesh has no faces or lacks the uv map."""
     mesh.calc_loop_triangles()
     if len(mesh.loop_triangles) == 0:
         raise Refused(f"'{name}' has no faces, or none remain after its modifiers")
     positions = got(mesh.vertices, "co", 3)
     smooth = got(mesh.vertex_normals, "vector", 3)
     slots = got(mesh.loop_triangles, "material_index", dtype=np.int32)
-    if not with_uv and _one_normal_a_vertex(mesh):
+    paint = _colors_of(mesh, colors)
+    painted = got(paint.data, "color", 4) if paint is not None else None
+    of_corners = paint is not None and paint.domain == "CORNER"
+    if not with_uv and not of_corners and _one_normal_a_vertex(mesh):
         triangles = got(mesh.loop_triangles, "vertices", 3, np.int32).astype(np.uint32)
         vertex = np.arange(len(positions), dtype=np.int32)
-        return Surface(positions, smooth, triangles, slots, vertex, len(positions), smooth)
+        return Surface(positions, smooth, triangles, slots, vertex, len(positions), smooth, colors=painted)
     # One vertex per corner: Cotan welds equal vertices when it averages frames.
     triangles = got(mesh.loop_triangles, "loops", 3, np.int32).astype(np.uint32)
     vertex = got(mesh.loops, "vertex_index", dtype=np.int32)
     made = Surface(positions[vertex], _corner_normals(mesh), triangles, slots, vertex, len(positions), smooth[vertex])
+    if painted is not None:
+        made.colors = painted if of_corners else painted[vertex]
     if with_uv:
         layer = _uv_of(mesh, name, uv_map)
         made.texcoords, made.uv_map = got(layer.data, "uv", 2), layer.name
@@ -109,12 +124,14 @@ def _unit(vectors):
 
 
 def joined(surfaces):
-    """Concatenated positions, normals and triangles of all surfaces."""
+    """Concatenated positions, triangles, normals and colours of all surfaces; white where one has none, None if none has."""
+    colors = [np.ones((len(s.positions), 4), np.float32) if s.colors is None else s.colors for s in surfaces]
     starts = np.cumsum([0] + [len(s.positions) for s in surfaces[:-1]]).astype(np.uint32)
     return (
         np.concatenate([s.positions for s in surfaces]),
-        np.concatenate([s.normals for s in surfaces]),
         np.concatenate([s.triangles + start for s, start in zip(surfaces, starts)]),
+        np.concatenate([s.normals for s in surfaces]),
+        np.concatenate(colors) if any(s.colors is not None for s in surfaces) else None,
     )
 
 
@@ -130,11 +147,18 @@ def mesh_of(evaluated, depsgraph, layers=False):
         evaluated.to_mesh_clear()
 
 
-def low_surface(thing, depsgraph, uv_map=""):
-    """The simple mesh in object space, with uv."""
+def _colors_missing(wanted):
+    return f"color attribute '{wanted}'" if wanted else "vertex colors: paint some"
+
+
+def low_surface(thing, depsgraph, uv_map="", colors=None):
+    """The simple mesh in object space, with uv. colors: as for surface_of; a mesh without them is refused."""
     evaluated = thing.evaluated_get(depsgraph)
     with mesh_of(evaluated, depsgraph, layers=True) as mesh:
-        return surface_of(mesh, thing.name, with_uv=True, uv_map=uv_map)
+        made = surface_of(mesh, thing.name, True, uv_map, colors)
+    if colors is not None and made.colors is None:
+        raise Refused(f"'{thing.name}' has no {_colors_missing(colors)}")
+    return made
 
 
 def solids_of(things, depsgraph):
@@ -151,14 +175,15 @@ def solids_of(things, depsgraph):
         yield evaluated, instance.matrix_world, key, evaluated.type == "MESH" and not made
 
 
-def high_surfaces(things, depsgraph):
-    """The detailed objects and their instances in world space. Raises Refused if there are no faces."""
+def high_surfaces(things, depsgraph, colors=None):
+    """The detailed objects and their instances in world space. colors: as for surface_of; some must have them. Raises
+    Refused if there are no faces, or none of these colours."""
     local, found = {}, []
-    for evaluated, matrix, key, _ in solids_of(things, depsgraph):
+    for evaluated, matrix, key, own in solids_of(things, depsgraph):
         if key not in local:
             try:
-                with mesh_of(evaluated, depsgraph) as mesh:
-                    local[key] = surface_of(mesh, evaluated.name)
+                with mesh_of(evaluated, depsgraph, layers=own and colors is not None) as mesh:
+                    local[key] = surface_of(mesh, evaluated.name, colors=colors)
             except Refused:
                 local[key] = None  # other objects may have faces
         if local[key] is not None:
@@ -166,6 +191,8 @@ def high_surfaces(things, depsgraph):
     if not found:
         names = ", ".join(f"'{thing.name}'" for thing in things)
         raise Refused(f"No faces remain of {names} after modifiers, or it is hidden")
+    if colors is not None and all(surface.colors is None for surface in found):
+        raise Refused(f"No detailed mesh has {_colors_missing(colors)}")
     return found
 
 

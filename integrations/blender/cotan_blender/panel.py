@@ -50,6 +50,8 @@ class CotanBakePanel(_Part, bpy.types.Panel):
             grid.prop_enum(s, "maps", word)
         if "id" in s.maps:
             layout.prop(s, "id_by")
+            if s.id_by == "VERTEX_COLOR":
+                layout.prop(s, "id_colors", icon="GROUP_VCOL")
         column = layout.column(align=True)
         column.prop(s, "width")
         column.prop(s, "height")
@@ -63,7 +65,12 @@ class CotanBakePanel(_Part, bpy.types.Panel):
             layout.prop_search(s, "uv_map", thing.data, "uv_layers", icon="GROUP_UVS")
         layout.prop(s, "cage")
         if s.cage == "FIRST":
-            layout.prop(s, "directions")
+            row = layout.row()
+            row.active = s.rays_mask is None
+            row.prop(s, "directions")
+            if s.directions == "VERTEX_COLOR" and s.rays_mask is None and thing is not None and thing.type == "MESH":
+                layout.prop_search(s, "rays_colors", thing.data, "color_attributes", icon="GROUP_VCOL")
+            layout.prop(s, "rays_mask")
             layout.prop(s, "extrusion")
             layout.operator("object.cotan_cage", icon="MESH_ICOSPHERE")
         if s.cage in ("FIRST", "NEAREST"):

@@ -32,7 +32,7 @@ MAPS = [
     ("roughness", "Roughness", "That of the detail's materials", 512),
     ("metallic", "Metallic", "That of the detail's materials", 1024),
     ("emissive", "Emission", "Light of the detail's materials, at most 1", 2048),
-    ("id", "Ids", "A colour for each material or object of the detail", 4096),
+    ("id", "Ids", "A colour for each material or object of the detail, or its vertex colours", 4096),
 ]
 MEASURED = [
     ("MEASURED", "Measured", "Keeps the maps; each part gets the cheapest frame that looks the same, which the file names"),
@@ -53,9 +53,13 @@ class CotanSettings(bpy.types.PropertyGroup):
         items=[
             ("MATERIAL", "Materials", "Each material of the detail has a colour of its own"),
             ("OBJECT", "Objects", "Each object of the detail has a colour of its own"),
+            ("VERTEX_COLOR", "Vertex Colors", "The colours that are painted on the detail; white where there are none"),
         ],
         default="MATERIAL",
         description="What has a colour of its own in the map of ids",
+    )
+    id_colors: StringProperty(
+        name="Color Attribute", description="Color attribute of the detailed meshes. Empty: the active one of each"
     )
     width: IntProperty(
         name="Width", default=2048, min=1, max=16384, subtype="PIXEL",
@@ -78,9 +82,9 @@ class CotanSettings(bpy.types.PropertyGroup):
     )
     uv_map: StringProperty(name="UV Map", description="UV map of the simple mesh. Empty: its active one")
     cage: EnumProperty(
-        name="Rays",
+        name="Search",
         items=[
-            ("FIRST", "Measured", "Rays from outside hit the first surface; their start is measured from the detail"),
+            ("FIRST", "First", "Rays from outside hit the first surface; their start is measured from the detail"),
             ("NEAREST", "Nearest", "Rays run both ways along the normal; the nearer surface counts"),
             ("BLENDER", "As Blender's", "Extrusion, ray distance and cage of Blender's own baker"),
             ("MESH", "Cage", "Rays start at a mesh with the vertices of the simple one; pairs by name: at x_cage"),
@@ -89,14 +93,23 @@ class CotanSettings(bpy.types.PropertyGroup):
         description="How rays search for the detailed surface",
     )
     directions: EnumProperty(
-        name="Directions",
+        name="Rays",
         items=[
-            ("AUTO", "Straight, but at Edges", "Along the normals of the simple mesh, and averaged near hard edges"),
+            ("AUTO", "Auto", "Along the normals of the simple mesh, and averaged near hard edges"),
             ("AVERAGED", "Averaged", "Along normals averaged over hard edges: no gaps, but details lean"),
             ("STRAIGHT", "Straight", "Along the normals of the simple mesh: with gaps at hard edges"),
+            ("VERTEX_COLOR", "Vertex Color", "Straight where the red of the simple mesh's colours is 1, averaged where 0"),
         ],
         default="AUTO",
-        description="Which way measured rays run",
+        description="Which way rays run",
+    )
+    rays_colors: StringProperty(
+        name="Color Attribute", description="Color attribute of the simple mesh. Empty: its active one"
+    )
+    rays_mask: PointerProperty(
+        name="Rays Mask", type=bpy.types.Image,
+        description="Image in the uv map of the simple mesh that replaces Rays: they are straight where its red is 1 and "
+        "averaged where it is 0",
     )
     distance: FloatProperty(
         name="Distance", default=0, min=0, subtype="DISTANCE",

@@ -7,8 +7,8 @@
  * 0. After an error no outputs have been written, unless the function says so.
  *
  * Structs. Each begins with its size in bytes. The caller sets it (COTAN_INIT), so that a library newer than the caller
- * knows which members exist. Structs for options and files may have the size of an older version; the newer members are
- * then 0.
+ * knows which members exist. Structs for options, files and meshes may have the size of an older version; the newer
+ * members are then 0.
  *
  * Data. Arrays of vectors are tightly packed floats, two or three per vector. Images are tightly packed red, green,
  * blue, alpha, with the top row first. Names of frames and other words are those of the command line, and so are
@@ -131,6 +131,8 @@ typedef struct cotan_mesh {
     const float* texcoords;  /* 2 each, v down as in glTF */
     size_t index_count;      /* a multiple of 3 */
     const uint32_t* indices; /* each below vertex_count */
+    /* Since version 9. */
+    const float* colors; /* 4 each: linear red, green, blue, alpha; null: none. Read by models and baking */
 } cotan_mesh;
 
 /* All functions that take a mesh refuse non-finite numbers (COTAN_INPUT), and name the first: "mesh.positions[7]:

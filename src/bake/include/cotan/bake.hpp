@@ -240,6 +240,7 @@ struct BakeProblem {
         tooFar,       // one lies beyond the search distance or the cage's reach
         belowHorizon, // normals point below the frame's horizon
         disputed,     // triangles share texels, but want different normals
+        beyondPart, // rays of BakeOptions::extrusion start beyond another part of the low surface, and find its detail
     };
     Kind kind = Kind::noSurface;
     std::size_t texels = 0;
