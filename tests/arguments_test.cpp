@@ -393,7 +393,7 @@ template<class Real> void expectSameAsStandard(const std::string& text)
 TEST(RealFromChars, readsRandomTextsAsTheStandardLibraryInAnyLocale)
 {
     std::mt19937 random(7);
-    const auto below = [&](unsigned n) { return random() % n; };
+    const auto below = [&](unsigned n) { return unsigned(random() % n); };
     for (const char* const locale : {"C", "de_DE.UTF-8"}) {
         std::setlocale(LC_ALL, locale); // where the system lacks it, the first one again
         for (int i = 0; i < 50'000; ++i) {

@@ -16,7 +16,8 @@ Mesh triangles(std::size_t count)
     Mesh mesh;
     for (std::size_t i = 0; i < count; ++i) {
         const float x = float(i);
-        mesh.positions.insert(mesh.positions.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
+        for (const glm::vec3 corner : {glm::vec3(x, 0, 0), glm::vec3(x + 1, 0, 0), glm::vec3(x, 1, 0)})
+            mesh.positions.push_back(corner);
         for (std::uint32_t k = 0; k < 3; ++k)
             mesh.indices.push_back(std::uint32_t(3 * i) + k);
     }
