@@ -93,7 +93,8 @@ def nothingDependsOnTheLocale():
          r"|\b(std::|(?<![\w.:>]))(is(alpha|digit|alnum|space|print|upper|lower|xdigit|punct|cntrl|graph)|to(lower|upper))\s*\(",
          "use core/real_number.hpp, core/named_values.hpp or {fmt}", [
              ("src/image/png.cpp", 'snprintf(static_cast<char*>(png_get_error_ptr(png)), kPngMessage, "%s"', "a text"),
-             ("src/core/locale_of_c.hpp", "<locale.h>", "takes the locale away from libraries"),
+             ("src/core/locale_of_c.hpp", "locale.h>", "takes the locale away from libraries"),
+             ("src/core/real_from_chars.hpp", "std::strto", "in the locale of C"),
              ("apps/viewer/window/glfw_window.cpp", 'std::setlocale(LC_NUMERIC, "C")', "the opposite: undoes what GTK chooses"),
              ("apps/viewer/window/glfw_window.cpp", "#include <clocale>", "the same"),
              ("src/scene/environment/store_studio.cpp", "std::fprintf(stderr", "a program of the build"),

@@ -40,8 +40,8 @@ Result<std::optional<Metres>> parseMetres(const std::string& text)
     const std::string_view words = text, width = words.substr(0, words.find('x'));
     const bool both = width.size() < words.size();
     Metres metres{0, 0};
-    const bool read = parseNumber(width, metres.width)
-        && (!both || parseNumber(words.substr(width.size() + 1), metres.height));
+    const bool read =
+        parseNumber(width, metres.width) && (!both || parseNumber(words.substr(width.size() + 1), metres.height));
     const double height = both ? metres.height : metres.width;
     if (!read || !(metres.width > 0) || !(height > 0) || !std::isfinite(metres.width * height))
         return usageError(fmt::format("--metres: expected metres as W or WxH, each over 0; found '{}'", text));

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <locale.h> // uselocale is not in <clocale>
+#ifdef __APPLE__
+#include <xlocale.h>
+#endif
 
 namespace cotan {
 

@@ -1,20 +1,15 @@
 // Reads real numbers as std::from_chars of C++17 does, for libc++, which has that function from version 20 on.
 #pragma once
 
-#include <cctype>
 #include <charconv>
-#include <clocale>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <string>
 #include <system_error>
 #include <type_traits>
-#ifdef __APPLE__
-#include <xlocale.h>
-#else
-#include <locale.h>
-#endif
+
+#include "locale_of_c.hpp"
 
 namespace cotan {
 
@@ -24,13 +19,13 @@ template<class Real> std::from_chars_result realFromChars(const char* first, con
     const char* at = first + (first != last && *first == '-');
     const auto digits = [&] {
         const char* const begin = at;
-        while (at != last && std::isdigit(static_cast<unsigned char>(*at)))
+        while (at != last && *at >= '0' && *at <= '9')
             ++at;
         return at - begin;
     };
     const auto isWord = [&](const char* word, std::size_t size) {
         for (std::size_t i = 0; i < size; ++i)
-            if (std::size_t(last - at) <= i || std::tolower(static_cast<unsigned char>(at[i])) != word[i])
+            if (std::size_t(last - at) <= i || (at[i] | 0x20) != word[i]) // lower case
                 return false;
         return true;
     };
@@ -55,10 +50,10 @@ template<class Real> std::from_chars_result realFromChars(const char* first, con
                 at = mantissa;
         }
     }
-    static const locale_t plain = newlocale(LC_ALL_MASK, "C", locale_t());
+    const LocaleOfC plain;
     const std::string text(first, at);
-    const Real number = std::is_same_v<Real, float> ? Real(strtof_l(text.c_str(), nullptr, plain))
-                                                    : Real(strtod_l(text.c_str(), nullptr, plain));
+    const Real number = std::is_same_v<Real, float> ? Real(std::strtof(text.c_str(), nullptr))
+                                                    : Real(std::strtod(text.c_str(), nullptr));
     const bool tooSmall =
         number == 0 && text.substr(0, text.find_first_of("eE")).find_first_of("123456789") < text.size();
     if (finite && (std::isinf(number) || tooSmall))

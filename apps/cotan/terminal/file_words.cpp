@@ -1,9 +1,10 @@
 #include "file_words.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <string_view>
+
+#include "core/named_values.hpp"
 
 namespace cotan::app {
 
@@ -74,8 +75,7 @@ std::string asTyped(std::string text, bool json)
             at = mayBegin(text, at) ? replaceName(text, at, file.size(), word, json) : at + 1;
     // A whole name of a drive that nobody typed: /C:/folder.
     for (std::size_t at = 0; (at = text.find(":/", at)) != std::string::npos; ++at)
-        if (at > 1 && text[at - 2] == '/' && std::isalpha(static_cast<unsigned char>(text[at - 1])) != 0
-            && mayBegin(text, at - 2))
+        if (at > 1 && text[at - 2] == '/' && isLetter(text[at - 1]) && mayBegin(text, at - 2))
             replaceName(text, at - 2, 4, {text[at - 1], ':', '\\'}, json);
     return text;
 }
