@@ -80,7 +80,7 @@ template<class RowOf> Level smaller(int width, int height, RowOf rowOf)
             for (int fy = down.first; fy <= down.last; ++fy) {
                 rowOf(fy, row);
                 addRow(row, down.weight(fy),
-                       {level.texels.begin() + std::ptrdiff_t(y) * level.width, std::size_t(level.width)});
+                       {&level.texels[std::size_t(y) * std::size_t(level.width)], std::size_t(level.width)});
             }
         }
     });
