@@ -75,7 +75,8 @@ await fact('fromDiskTheShaderAndTheDocumentsAreThere', async () => {
   if (!/lang=hlsl&frame=orthonormal/.test(page.url())) return `the address is ${page.url()}`;
   for (const name of ['Theory', 'The figures', 'Cost']) {
     await page.click(`nav >> text=${name}`);
-    const broken = await page.evaluate(() => [...document.images].filter(image => !image.complete || image.naturalWidth === 0).map(image => image.src));
+    await page.waitForFunction(() => [...document.images].every(image => image.complete));
+    const broken = await page.evaluate(() => [...document.images].filter(image => image.naturalWidth === 0).map(image => image.src));
     if (broken.length > 0 || (await page.textContent('main')).length < 1000) return `${name}: ${broken}`;
   }
 });
