@@ -66,11 +66,16 @@ inline void requireSize(std::size_t size, std::size_t least, const char* name)
         fail(ErrorKind::usage, name, ".size: expected ", least, " or more, found ", size);
 }
 
-// Structs of newer callers may be longer than T, but not shorter.
-template<class T> const T& checked(const T* argument, const char* name)
+template<class T> void requireStruct(const T* argument, const char* name)
 {
     if (!argument)
         fail(ErrorKind::usage, name, ": expected a struct, found null");
+}
+
+// Structs of newer callers may be longer than T, but not shorter.
+template<class T> const T& checked(const T* argument, const char* name)
+{
+    requireStruct(argument, name);
     requireSize(argument->size, sizeof(T), name);
     return *argument;
 }

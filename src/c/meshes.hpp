@@ -32,8 +32,7 @@ inline void checkIndices(const std::string& name, std::size_t vertexCount, std::
 
 inline cotan_mesh checkedMesh(const cotan_mesh* given, const char* called, bool needsUv, bool needsNormals = true)
 {
-    if (!given)
-        fail(ErrorKind::usage, called, ": expected a struct, found null");
+    requireStruct(given, called);
     const cotan_mesh m = optionsOf(given, called);
     if (m.vertex_count != 0 && !(m.positions && (m.normals || !needsNormals) && (m.texcoords || !needsUv)))
         fail(ErrorKind::usage, called, ": expected positions", needsNormals ? ", normals" : "",

@@ -1,5 +1,6 @@
 #include "files/output.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "core/named_values.hpp"
 #include "core/try.hpp"
 #include "files/file_registry.hpp"
 #include "files/system/system.hpp"
@@ -100,8 +102,7 @@ std::string reservedName(const fs::path& file)
     std::string name = file.filename().string();
     name = name.substr(0, name.find_first_of(".:"));
     name = name.substr(0, name.find_last_not_of(' ') + 1);
-    for (char& c : name)
-        c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+    std::ranges::transform(name, name.begin(), upperLetter);
     const bool numbered =
         name.size() == 4 && (name.starts_with("COM") || name.starts_with("LPT")) && name[3] >= '1' && name[3] <= '9';
     const bool named =
