@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <random>
 
 #include "cotan/convention.hpp"
 #include "image/codecs.hpp"
+#include "maps/textures/make_texture.hpp"
 #include "maps/textures/texel_code.hpp"
 
 namespace cotan::maps {
@@ -94,6 +96,39 @@ TEST(TextureBytes, ofEachWordAreKnownByIt)
         }
     }
     EXPECT_GT(files, 15u);
+}
+
+// Blocks have 4, 5, 6 and 8 rows; parts of a map end between blocks of all of them, and the last part has fewer rows.
+TEST(TextureBytes, aMapInPartsGivesTheBlocksOfTheWholeMap)
+{
+    Image map = makeImage(9000, 126, PixelType::float32);
+    std::mt19937 random(3);
+    for (std::size_t i = 0; i < map.pixelCount(); ++i) { // flat, but for some columns
+        const auto value = [&] { return i % 9000 < 40 ? 0.3f + 0.4f * float(random() % 1000) / 1000 : 0.5f; };
+        const std::array<float, 4> texel{value(), value(), 1, 1};
+        std::memcpy(map.data.data() + i * sizeof texel, texel.data(), sizeof texel);
+    }
+    for (const std::string word : {"none", "bc5", "astc-5x5", "astc-6x6", "astc-8x8"}) {
+        const TexelCode code = *codeNamed(word);
+        const Convention taken = codeConvention(code, {});
+        const PixelType type = word == "none" ? PixelType::unorm8 : PixelType::float32;
+        RecodeCounts counts;
+        const Image stored = recode(map, {.from = {}, .to = taken, .type = type}, counts);
+        std::vector<TextureLevel> levels;
+        for (const MipLevel& level : mipChain(stored, {.from = taken, .to = taken, .type = type})) {
+            const auto made = levelOf(levels.empty() ? stored : level.normals, code, {});
+            if (!made && made.error().kind == ErrorKind::unavailable)
+                break; // a build without libastcenc
+            ASSERT_TRUE(made) << made.error().message;
+            levels.push_back(*made);
+        }
+        if (levels.empty())
+            continue;
+        const auto made = wholeTexture(stored, code, false, {.from = taken, .to = {}});
+        ASSERT_TRUE(made) << made.error().message;
+        EXPECT_EQ(made->levels, int(levels.size()));
+        EXPECT_EQ(textOf(made->bytes), textureBytes("map.ktx2", code, levels)) << word;
+    }
 }
 
 TEST(TextureBytes, ktx2FollowsItsSpecification)
