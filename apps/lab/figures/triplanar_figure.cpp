@@ -10,6 +10,7 @@
 #include "figure_renderer.hpp"
 #include "plot.hpp"
 #include "truth.hpp"
+#include "truth/quad.hpp"
 #include "truth/relief.hpp"
 
 namespace cotan::figures {
