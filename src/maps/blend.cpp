@@ -108,7 +108,7 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
     const DetailRows details(detail, s.detail, base.width, height, s.tilesX, s.tilesY);
     const bool alpha = s.base.channels == Channels::xyz && s.to.channels == Channels::xyz;
     std::atomic<std::size_t> bad = 0;
-    forRowBands(base.height, [&](int first, int last) {
+    forRowBands(base.width, base.height, [&](int first, int last) {
         const std::size_t width = std::size_t(base.width);
         std::vector<glm::vec3> baseRow(width), detailRow(width);
         std::vector<glm::vec4> texels(width), stored(width, glm::vec4(1));

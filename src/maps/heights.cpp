@@ -118,7 +118,7 @@ using Grid = std::vector<std::complex<float>>; // stored in single precision, tr
 template<class Number, class Stored, class Work>
 void eachRow(std::vector<Stored>& grid, int width, int height, const Work& work)
 {
-    forRowBands(height, [&](int first, int last) {
+    forRowBands(width, height, [&](int first, int last) {
         std::vector<Number> row(std::size_t(width), 0);
         for (int y = first; y < last; ++y) {
             const auto at = grid.begin() + std::ptrdiff_t(y) * width;
@@ -133,7 +133,7 @@ void eachRow(std::vector<Stored>& grid, int width, int height, const Work& work)
 template<class Number, class Stored, class Work>
 void eachColumn(std::vector<Stored>& grid, int width, int height, const Work& work)
 {
-    forRowBands(width, [&](int first, int last) {
+    forRowBands(height, width, [&](int first, int last) {
         const std::size_t count = std::size_t(last - first), rows = std::size_t(height);
         std::vector<Number> columns(count * rows);
         for (std::size_t y = 0; y < rows; ++y)
@@ -166,7 +166,7 @@ Power total(const std::vector<Power>& rows)
 Power solve(Grid& grid, std::size_t width, std::size_t height, Kernel kernel)
 {
     std::vector<Power> rows(height / 2 + 1);
-    forRowBands(int(rows.size()), [&](int first, int last) {
+    forRowBands(int(width), int(rows.size()), [&](int first, int last) {
         for (std::size_t y = std::size_t(first); y < std::size_t(last); ++y) {
             const std::size_t minusY = (height - y) % height;
             // Row y is its own mirror: the other half of it is handled together with the first.
@@ -197,7 +197,7 @@ void solvePeriodic(const Image& map, const ToHeightSettings& s, Heights& result)
     const int width = map.width, height = map.height;
     Grid grid(map.pixelCount());
     std::atomic<std::size_t> invalid = 0;
-    forRowBands(height, [&](int first, int last) {
+    forRowBands(width, height, [&](int first, int last) {
         std::vector<glm::vec3> normals(std::size_t(width), glm::vec3(0));
         std::vector<glm::vec2> slopes(normals.size());
         for (int y = first; y < last; ++y) {
@@ -226,7 +226,7 @@ void solvePeriodic(const Image& map, const ToHeightSettings& s, Heights& result)
 template<class Work> std::size_t eachSlope(const Image& map, const ToHeightSettings& s, Work work)
 {
     std::atomic<std::size_t> invalid = 0;
-    forRowBands(map.height, [&](int first, int last) {
+    forRowBands(map.width, map.height, [&](int first, int last) {
         const std::size_t width = std::size_t(map.width);
         std::vector<glm::vec3> normals(width);
         std::vector<glm::vec2> above(width), here(width), below(width);
@@ -380,7 +380,7 @@ Image normalsFromHeight(const Image& height, const FromHeightSettings& s, std::s
     const std::size_t width = std::size_t(height.width);
     const glm::vec2 scale(float(s.scaleX), float(s.scaleY));
     std::atomic<std::size_t> bad = 0;
-    forRowBands(out.height, [&](int first, int last) {
+    forRowBands(out.width, out.height, [&](int first, int last) {
         std::vector<float> above, here, below;
         std::vector<glm::vec4> texels(width);
         std::size_t badHere = 0;

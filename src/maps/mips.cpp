@@ -73,7 +73,7 @@ template<class RowOf> Level smaller(int width, int height, RowOf rowOf)
 {
     Level level{std::max(1, width / 2), std::max(1, height / 2), {}};
     level.texels.resize(std::size_t(level.width) * std::size_t(level.height));
-    forRowBands(level.height, [&](int firstRow, int lastRow) {
+    forRowBands(level.width, level.height, [&](int firstRow, int lastRow) {
         std::vector<Moments> row(std::size_t(width), Moments{});
         for (int y = firstRow; y < lastRow; ++y) {
             const Footprint down = footprint(y, level.height, height);
@@ -102,7 +102,7 @@ template<class RowOf> MipLevel encoded(int width, int height, const MipSettings&
 {
     MipLevel out{makeImage(width, height, s.type), makeImage(width, height, s.type)};
     std::vector<double> lengths(std::size_t(height), 0), roughness(lengths), counts(lengths);
-    forRowBands(height, [&](int first, int last) {
+    forRowBands(width, height, [&](int first, int last) {
         std::vector<Moments> row(std::size_t(width), Moments{});
         std::vector<glm::vec4> normals(row.size()), rough(row.size());
         for (int y = first; y < last; ++y) {
@@ -185,7 +185,7 @@ void MipRows::add(const Image& rows, const Take& take)
     const std::size_t width = std::size_t(rows.width), start = moments.size();
     moments.resize(start + rows.pixelCount());
     alphas.resize(averagesAlpha_ ? moments.size() : 0);
-    forRowBands(rows.height, [&](int first, int last) {
+    forRowBands(rows.width, rows.height, [&](int first, int last) {
         std::vector<glm::vec3> normals(width);
         std::vector<glm::vec4> texels(width);
         for (int y = first; y < last; ++y) {
@@ -215,7 +215,7 @@ void MipRows::makeRows(std::size_t i, const Take& take)
     const std::size_t start = level.moments.size();
     level.moments.resize(start + rows.pixelCount());
     level.alphas.resize(averagesAlpha_ ? level.moments.size() : 0);
-    forRowBands(rows.height, [&](int firstRow, int lastRow) {
+    forRowBands(rows.width, rows.height, [&](int firstRow, int lastRow) {
         std::vector<glm::vec4> texels(width);
         for (int y = firstRow; y < lastRow; ++y) {
             const std::size_t at = start + std::size_t(y) * width;

@@ -96,7 +96,7 @@ template<class Band, class Work> void sumBands(const Image& image, Band& all, Wo
         return;
     }
     std::vector<Band> bands(std::size_t(image.height + 15) / 16);
-    forRowBands(image.height, [&](int first, int last) {
+    forRowBands(image.width, image.height, [&](int first, int last) {
         std::vector<glm::vec4> row(std::size_t(image.width));
         for (int y = first; y < last; ++y) {
             loadRow(image, y, row);

@@ -71,7 +71,7 @@ Image recodeByComponent(const Image& map, const RecodeSettings& s, RecodeCounts&
     const std::array<std::uint8_t, 3> flat{f[0], f[1], f[2]};
     Image out = makeImage(map.width, map.height, s.type, map.name);
     std::atomic<std::size_t> invalid = 0;
-    forRowBands(map.height, [&](int first, int last) {
+    forRowBands(map.width, map.height, [&](int first, int last) {
         const std::size_t width = std::size_t(map.width), start = 4 * std::size_t(first) * width;
         const std::uint8_t* from = map.bytes8() + start;
         std::uint8_t* to = out.bytes8() + start;
@@ -121,7 +121,7 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
     Image out = makeImage(map.width, map.height, s.type, map.name);
     const bool keepAlpha = s.from.channels == Channels::xyz && s.to.channels == Channels::xyz;
     std::atomic<std::size_t> invalid = 0, clamped = 0;
-    forRowBands(map.height, [&](int first, int last) {
+    forRowBands(map.width, map.height, [&](int first, int last) {
         const std::size_t width = std::size_t(map.width);
         std::vector<glm::vec4> texels(width);
         std::vector<glm::vec3> normals(width);

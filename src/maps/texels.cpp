@@ -167,11 +167,15 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
     return {f32::cotan_encode_texel(glm::normalize(normal), format), 1.0f};
 }
 
-void forRowBands(int height, const std::function<void(int first, int last)>& work)
+void forRowBands(int width, int height, const std::function<void(int first, int last)>& work)
 {
     constexpr int kBand = 16;
-    parallelFor(0, (height + kBand - 1) / kBand,
-                [&](int band) { work(band * kBand, std::min(height, (band + 1) * kBand)); });
+    constexpr std::int64_t kFewTexels = 4096; // they take less time than starting a thread
+    const bool few = std::int64_t(width) * height <= kFewTexels;
+    withThreads(few ? 1 : 0, [&] {
+        parallelFor(0, (height + kBand - 1) / kBand,
+                    [&](int band) { work(band * kBand, std::min(height, (band + 1) * kBand)); });
+    });
 }
 
 std::vector<float> anglesBetween(const Image& a, const Convention& conventionA, const Image& b,
@@ -179,7 +183,7 @@ std::vector<float> anglesBetween(const Image& a, const Convention& conventionA, 
 {
     std::vector<float> degrees(a.pixelCount());
     const std::size_t width = std::size_t(a.width);
-    forRowBands(a.height, [&](int first, int last) {
+    forRowBands(a.width, a.height, [&](int first, int last) {
         std::vector<glm::vec3> rowA(width), rowB(width);
         for (int y = first; y < last; ++y) {
             decodeRow(a, y, conventionA, rowA);

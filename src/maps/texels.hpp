@@ -64,13 +64,14 @@ inline float settled(float c) { return std::abs(c - 0.5f) < 1e-6f ? 0.5f : c; }
 // channels and keepLength is set. (0,0,0) is stored as flat. type: as for decodeTexel.
 glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType type, bool keepLength = false);
 
-// Calls work(first, last) for bands of rows, on all threads of the caller's arena. Results must depend only on rows.
-void forRowBands(int height, const std::function<void(int first, int last)>& work);
+// Calls work(first, last) for bands of rows, on all threads that the caller may use; on this one if there are few
+// texels. Results must depend only on rows.
+void forRowBands(int width, int height, const std::function<void(int first, int last)>& work);
 
 // Replaces every texel: loads each row, calls change(texel) on its texels, and stores the row.
 template<class Change> void changeTexels(Image& image, const Change& change)
 {
-    forRowBands(image.height, [&](int first, int last) {
+    forRowBands(image.width, image.height, [&](int first, int last) {
         std::vector<glm::vec4> row(std::size_t(image.width));
         for (int y = first; y < last; ++y) {
             loadRow(image, y, row);
