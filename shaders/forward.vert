@@ -1,12 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Scene vertices: transforms all inputs of the fragment stage to camera-relative world space.
+// Scene vertices: transforms all inputs of the fragment stage to camera-relative world space. Compiled again with
+// COTAN_POSITION_ONLY, for the same positions without these inputs.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/frame.h"
 #include "bindings.glsl"
 
 layout(location = 0) in vec3 inPosition;
+#ifndef COTAN_POSITION_ONLY
 layout(location = 1) in vec3 inNormal;
 layout(location = 2) in vec2 inTexcoord0;
 layout(location = 3) in vec2 inTexcoord1;
@@ -24,10 +26,12 @@ layout(location = 4) out vec4 outTangent;
 layout(location = 5) out vec3 outCotangentU;
 layout(location = 6) out vec3 outCotangentV;
 layout(location = 7) flat out vec4 outTexcoordOrigin;
+#endif
 
 void main()
 {
     vec3 p = cameraRelative(inPosition);
+#ifndef COTAN_POSITION_ONLY
     outPosition = p;
     outNormal = cotan_normalize_or(covectorToWorld(inNormal), vec3(0.0));
     outTexcoords = vec4(inTexcoord0, inTexcoord1);
@@ -37,6 +41,7 @@ void main()
     outTangent = vec4(tangent, inTangent.w * draw.normalX.w);
     outCotangentU = covectorToWorld(inCotangentU);
     outCotangentV = covectorToWorld(inCotangentV);
+#endif
 
     vec4 q = vec4(p, 1.0);
     vec4 clip =

@@ -86,6 +86,8 @@ PassKeys keysOf(const View& view, const Targets& targets)
         forward.toneMap = !view.linearOutput;
         forward.tone = view.linearOutput ? forward.tone : view.toneMapping;
     }
+    keys.depth = {.pass = Pass::depth, .samples = kind.samples};
+    keys.marks = {.pass = Pass::marks, .samples = kind.samples};
     keys.layers = forward;
     keys.layers.pass = Pass::layers;
     keys.layers.format = vk::Format::eUndefined;
@@ -119,13 +121,14 @@ CommandRecorder::CommandRecorder(const Device& device, const Layouts& layouts)
     sampler.compareEnable = VK_TRUE; // filters the results of comparisons
     sampler.compareOp = vk::CompareOp::eLessOrEqual;
     shadowSampler_ = vk::raii::Sampler(device.device, sampler);
-    constexpr std::uint32_t kSets = 2;
+    constexpr std::uint32_t kSets = 3;
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, kSets),
                            vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSets * 3),
                            vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, kSets * 4)};
     pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, kSets, sizes));
     viewSet_ = allocateSet(device, pool_, layouts.viewSet);
     composeSet_ = allocateSet(device, pool_, layouts.viewSet);
+    markSet_ = allocateSet(device, pool_, layouts.viewSet);
 }
 
 CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes,
@@ -140,7 +143,7 @@ CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, con
         item.material = &scene.materials[std::size_t(item.mesh->material)];
         item.constants = drawConstants(instance.toWorld, axes.eye);
         const Buffer& buffer = scene.buffers[item.mesh->buffer];
-        item.buffer = *buffer.buffer;
+        item.buffer = &buffer;
         addMesh(item.constants, buffer.address, *item.mesh);
         item.constants.flags |= frameBits(*item.mesh, view.frame);
         // A mirroring matrix reverses the winding, and so does a raster whose rows run upward.
@@ -208,29 +211,30 @@ void CommandRecorder::writeViewSet(bool layered)
         return held.owner ? vk::DescriptorImageInfo(*linearSampler_, *held.image->texture.view, kReadOnly) : shadow;
     };
     const vk::DescriptorImageInfo environment = imageInfo(environment_), ground = imageInfo(ground_);
-    const auto write = [&](vk::DescriptorSet set, const vk::DescriptorImageInfo& depths,
-                           const vk::DescriptorImageInfo& environmentOrSamples) {
+    const auto write = [&](vk::DescriptorSet set, const vk::DescriptorBufferInfo& listsOrMarks,
+                           const vk::DescriptorImageInfo& depths, const vk::DescriptorImageInfo& environmentOrSamples) {
         using W = vk::WriteDescriptorSet;
         using T = vk::DescriptorType;
         device_->device.updateDescriptorSets(
             {W(set, 0, 0, T::eUniformBuffer, {}, view), W(set, 1, 0, T::eStorageBuffer, {}, lights),
-             W(set, 2, 0, T::eCombinedImageSampler, depths), W(set, 3, 0, T::eStorageBuffer, {}, lists),
+             W(set, 2, 0, T::eCombinedImageSampler, depths), W(set, 3, 0, T::eStorageBuffer, {}, listsOrMarks),
              W(set, 4, 0, T::eStorageBuffer, {}, layers), W(set, 5, 0, T::eCombinedImageSampler, environmentOrSamples),
              W(set, 6, 0, T::eCombinedImageSampler, shadowDepth), W(set, 7, 0, T::eCombinedImageSampler, ground)},
             {});
     };
-    write(viewSet_, shadow, environment);
-    write(composeSet_, layered && targets_->multisampled() ? depth : shadow,
+    write(viewSet_, lists, shadow, environment);
+    write(composeSet_, lists, layered && targets_->multisampled() ? depth : shadow,
           targets_->resolves() ? samples : environment);
+    write(markSet_, visible_ ? whole(visible_->marks) : lights, shadow, environment);
 }
 
 // The pipeline that draws the item in the pass of the key.
 PipelineKey CommandRecorder::keyOf(PipelineKey key, const Item& item)
 {
-    key.extended = key.pass != Pass::shadow && item.material->extended();
-    if (key.pass != Pass::shadow)
+    key.extended = !ofPositions(key.pass) && item.material->extended();
+    if (!ofPositions(key.pass))
         key.alphaMode = item.material->alphaMode;
-    if (!isShadow(key.pass))
+    if (!isShadow(key.pass) && !ofPositions(key.pass))
         key.maps = item.material->maps & mapsNeeded(key);
     return key;
 }
@@ -247,6 +251,10 @@ void CommandRecorder::beginPipelines(const DrawLists& lists, const View& view, b
         }
     };
     const bool shaded = view.output == Output::shaded;
+    if (dropsHidden(view)) {
+        add(lists.opaque, keys_.depth);
+        add(lists.opaque, keys_.marks);
+    }
     add(lists.opaque, keys_.forward);
     add(lists.mask, keys_.forward);
     add(lists.translucent, layered ? keys_.layers : keys_.forward);
@@ -278,12 +286,14 @@ void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const s
         const vk::PipelineLayout layout = layouts_->pipelineOf(item.material->extended());
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 1, item.material->set, {});
         std::array<vk::Buffer, kStreamCount> buffers;
-        buffers.fill(item.buffer);
+        buffers.fill(*item.buffer->buffer);
         // Without sizes every range extends to the end of its buffer.
         commands.bindVertexBuffers2(0, buffers, mesh.offsets, {}, mesh.strides);
-        commands.bindIndexBuffer(item.buffer, mesh.indices, vk::IndexType::eUint32);
+        const bool whole = key.pass != Pass::forward || !item.visible;
+        commands.bindIndexBuffer(whole ? *item.buffer->buffer : item.visible, whole ? mesh.indices : item.visibleOffset,
+                                 vk::IndexType::eUint32);
         commands.pushConstants<gpu::CotanDraw>(layout, kBothStages, 0, item.constants);
-        commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
+        commands.drawIndexed(whole ? mesh.indexCount : item.visibleCount, 1, 0, 0, 0);
     }
 }
 

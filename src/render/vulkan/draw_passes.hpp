@@ -38,7 +38,9 @@ public:
 
     // Starts drawing into the resolved image, cleared to 0, without depth; ends with endRendering. Requires resolves().
     void beginSurround(const vk::raii::CommandBuffer& commands);
-    // Starts drawing in the area, cleared to 0 (far away in reversed depth); ends with endOpaque if translucent layers
+    // Starts drawing only depth in the area, cleared to 0 (far away in reversed depth); ends with endRendering.
+    void beginDepth(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
+    // Starts drawing in the area, cleared as above; ends with endOpaque if translucent layers
     // follow, else with endRendering.
     void begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow);
     // Ends drawing that began with layersFollow; afterwards the depth can be read.
@@ -79,11 +81,16 @@ private:
 // time, as floats.
 Targets::Kind targetKind(const Device& device, const View& view);
 
+inline vk::Rect2D rectangle(const PixelArea& a)
+{
+    return {{a.x0, a.y0}, {static_cast<std::uint32_t>(a.x1 - a.x0), static_cast<std::uint32_t>(a.y1 - a.y0)}};
+}
+
 // ---- drawing -------------------------------------------------------------------------------
 
 // Pipelines for the passes of an image. Those that draw surfaces lack the material's maps, which keyOf adds.
 struct PassKeys {
-    PipelineKey forward, layers, compose, background, surround, resolve;
+    PipelineKey depth, marks, forward, layers, compose, background, surround, resolve;
 };
 
 PassKeys keysOf(const View& view, const Targets& targets);
@@ -102,6 +109,16 @@ struct LayerLists {
     std::uint32_t width;
     Buffer lists, layers;
     Buffer hostCount; // number of layers drawn; those over the capacity were not stored
+};
+
+// The triangles of a view that are not hidden, for drivers that render on the CPU: they shade the hidden ones, too.
+struct VisibleTriangles {
+    VisibleTriangles(const Device& device, std::uint32_t count);
+
+    Memory memory;
+    std::uint32_t capacity; // in triangles
+    Buffer marks;           // for each triangle: not 0 if a sample of it is visible
+    Buffer indices;         // of the visible ones
 };
 
 // Draws images. Keeps constants, shadow map and targets from one image to the next.
@@ -128,7 +145,10 @@ private:
     struct Item {
         gpu::CotanDraw constants{};
         const GpuMesh* mesh = nullptr;
-        vk::Buffer buffer; // contains the mesh
+        const Buffer* buffer = nullptr; // contains the mesh
+        vk::Buffer visible;             // contains the indices of its visible triangles; null: all are drawn
+        vk::DeviceSize visibleOffset = 0;
+        std::uint32_t visibleCount = 0; // of indices
         const GpuMaterial* material = nullptr;
         bool clockwise = false; // front faces are clockwise in the raster
         double distance = 0;    // from the eye to the box's centre; 0 if not finite
@@ -151,6 +171,8 @@ private:
     void prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered);
     void prepareShadowMap(bool needed);
     void writeViewSet(bool layered);
+    bool dropsHidden(const View& view) const;
+    void dropHidden(DrawLists& lists, const PixelArea& area);
     void recordShadow(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const ShadowView& shadowView);
     void recordMain(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view);
     static PipelineKey keyOf(PipelineKey key, const Item& item);
@@ -180,10 +202,12 @@ private:
     HeldTexture ground_;
     vk::raii::Sampler linearSampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};
-    vk::DescriptorSet viewSet_, composeSet_; // owned by the pool; the second one reads the targets
+    // Owned by the pool. composeSet_ reads the targets; with markSet_ triangles are marked.
+    vk::DescriptorSet viewSet_, composeSet_, markSet_;
     std::unique_ptr<Targets> targets_;
     PassKeys keys_;
     std::unique_ptr<LayerLists> layers_; // created for the first translucent instance
+    std::unique_ptr<VisibleTriangles> visible_;
     vk::raii::Sampler depthSampler_{nullptr};
 };
 

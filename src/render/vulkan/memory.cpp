@@ -16,8 +16,7 @@ Buffer makeBuffer(Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usag
     b.buffer = vk::raii::Buffer(device, vk::BufferCreateInfo({}, b.size, usage));
     const Memory::Piece piece = memory.allocate(b.buffer.getMemoryRequirements(), needed, wanted);
     b.buffer.bindMemory(piece.memory, piece.offset);
-    if (needed & vk::MemoryPropertyFlagBits::eHostVisible)
-        b.mapped = piece.mapped;
+    b.mapped = piece.mapped;
     if (usage & vk::BufferUsageFlagBits::eShaderDeviceAddress)
         b.address = device.getBufferAddress({*b.buffer});
     return b;

@@ -56,7 +56,7 @@ struct Buffer {
     vk::raii::Buffer buffer{nullptr};
     vk::DeviceSize size = 0;
     vk::DeviceAddress address = 0; // if the usage includes one
-    std::byte* mapped = nullptr;   // host buffers only
+    std::byte* mapped = nullptr;   // if the memory is host visible and coherent
 };
 
 struct Texture2D {

@@ -86,6 +86,8 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     switch (key.pass) {
     case Pass::shadow: return {cotanShadowVert, {}};
     case Pass::shadowMask: return {cotanShadowVert, cotanShadowFrag};
+    case Pass::depth: return {cotanPositionVert, {}};
+    case Pass::marks: return {cotanPositionVert, cotanMarksFrag};
     case Pass::surround:
     case Pass::background: return {cotanBackgroundVert, cotanBackgroundFrag};
     case Pass::layers: return {cotanForwardVert, forwardShader(key, exact)};
@@ -101,6 +103,8 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     return {cotanForwardVert,
             forwardShader(key, !key.framesOfMeshes && info(key.frame).source == FrameSource::triangle)};
 }
+
+bool isPrepass(Pass pass) { return pass == Pass::depth || pass == Pass::marks; }
 
 bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround && pass != Pass::resolve; }
 
@@ -124,7 +128,7 @@ struct VertexInput {
         for (std::uint32_t i = 0; i < kStreamCount; ++i) {
             const bool forShadow =
                 i == kPosition || i == kTexcoord0 || i == kTexcoord1 || i == kColor || i == kTexcoordOrigin;
-            if (coversImage(pass) || (isShadow(pass) && !forShadow))
+            if (coversImage(pass) || (isShadow(pass) && !forShadow) || (isPrepass(pass) && i != kPosition))
                 continue;
             bindings[count] = vk::VertexInputBindingDescription(i, 0);
             attributes[count++] = vk::VertexInputAttributeDescription(i, i, formats[i], 0);
@@ -152,13 +156,14 @@ vk::PipelineColorBlendAttachmentState blending(bool blend, bool dualSource)
 // Depth is reversed for the camera; the shadow map is not.
 vk::PipelineDepthStencilStateCreateInfo depthState(Pass pass)
 {
-    const bool camera = pass == Pass::forward || pass == Pass::layers;
+    const bool camera = pass == Pass::forward || pass == Pass::layers || pass == Pass::depth;
     vk::PipelineDepthStencilStateCreateInfo state;
     state.depthTestEnable = hasDepth(pass);
-    state.depthWriteEnable = hasDepth(pass) && pass != Pass::background && pass != Pass::layers;
-    state.depthCompareOp = camera  ? vk::CompareOp::eGreater
-        : pass == Pass::background ? vk::CompareOp::eGreaterOrEqual
-                                   : vk::CompareOp::eLess;
+    const bool behind = pass == Pass::background || pass == Pass::marks; // also where the depth is the same
+    state.depthWriteEnable = hasDepth(pass) && !behind && pass != Pass::layers;
+    state.depthCompareOp = camera ? vk::CompareOp::eGreater
+        : behind                  ? vk::CompareOp::eGreaterOrEqual
+                                  : vk::CompareOp::eLess;
     return state;
 }
 
@@ -197,7 +202,7 @@ vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPo
 vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const
 {
     const bool shadow = isShadow(key.pass);
-    const std::uint32_t colors = shadow || key.pass == Pass::layers ? 0 : 1;
+    const std::uint32_t colors = shadow || isPrepass(key.pass) || key.pass == Pass::layers ? 0 : 1;
     const Specialization specialization(key);
     std::vector<vk::PipelineShaderStageCreateInfo> stages;
     std::vector<vk::raii::ShaderModule> modules; // must live until the pipeline is made

@@ -39,10 +39,12 @@ vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPo
 
 // shadowMask: surfaces that cover texels of the shadow map by alpha. layers: translucent fragments into their lists;
 // compose: these lists over the image. surround: the background with one sample and without depth; resolve: the samples
-// of a pixel into one.
-enum class Pass { shadow, shadowMask, forward, background, surround, layers, compose, resolve };
+// of a pixel into one. depth, marks: the two steps of dropHidden.
+enum class Pass { shadow, shadowMask, depth, marks, forward, background, surround, layers, compose, resolve };
 
 constexpr bool isShadow(Pass pass) { return pass == Pass::shadow || pass == Pass::shadowMask; }
+// Whether the pass reads no material.
+constexpr bool ofPositions(Pass pass) { return pass == Pass::shadow || pass == Pass::depth || pass == Pass::marks; }
 
 // All specialisations of a pipeline. Fields that a pass ignores keep their defaults, so that equal pipelines have equal
 // keys.

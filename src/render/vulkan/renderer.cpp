@@ -66,11 +66,6 @@ Image meanOf(const Image& sum, const View& view)
     return image;
 }
 
-vk::Rect2D rectangle(const PixelArea& a)
-{
-    return {{a.x0, a.y0}, {static_cast<std::uint32_t>(a.x1 - a.x0), static_cast<std::uint32_t>(a.y1 - a.y0)}};
-}
-
 } // namespace
 
 // Draws the background around an area directly into the resolved image, where all samples of a pixel are equal.
@@ -115,7 +110,7 @@ Status CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optiona
     scene.setPointSampled(view.pointSampled);
     const gpu::CotanView constants =
         viewConstants(view, axes, scene.bounds, sample ? samplePosition(*sample) : glm::dvec2(0));
-    const DrawLists lists = makeLists(scene, view, axes, constants);
+    DrawLists lists = makeLists(scene, view, axes, constants);
     const bool layered = view.output == Output::shaded && !lists.translucent.empty();
     keys_ = keysOf(view, *targets_);
     beginPipelines(lists, view, layered);
@@ -124,6 +119,8 @@ Status CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optiona
     if (targets_->resolves())
         area = lists.area.empty() ? PixelArea{0, 0, 1, 1} : lists.area;
 
+    if (dropsHidden(view))
+        dropHidden(lists, area);
     const vk::raii::CommandBuffer& commands = begin();
     recordShadow(commands, lists, {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled});
     if (targets_->resolves())

@@ -90,6 +90,17 @@ void Targets::beginSurround(const vk::raii::CommandBuffer& commands)
     beginColor(commands, resolved_->texture, vk::AttachmentLoadOp::eClear, {{0, 0}, {kind_.width, kind_.height}});
 }
 
+void Targets::beginDepth(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
+{
+    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
+               {vk::ImageLayout::eUndefined, kDepthStages | Stage::eFragmentShader, {}}, kDepthDrawn);
+    const vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
+                                            vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare,
+                                            vk::ClearDepthStencilValue(0.0f, 0));
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, 0, nullptr, &depth));
+    setArea(commands, area);
+}
+
 void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow)
 {
     transition(
