@@ -219,5 +219,47 @@ TEST(DrawRandom, bothRenderersAgreeOnRandomScenesWithAllFeatures)
     }
 }
 
+// Drivers that render on the CPU get only the triangles that no other hides.
+TEST(DrawRandom, bothRenderersAgreeWhereHundredsOfSurfacesHideEachOther)
+{
+    const auto device = openRenderer("auto"), reference = openRenderer("reference");
+    ASSERT_TRUE(device);
+    ASSERT_TRUE(reference);
+    if (!(*device)->note.empty())
+        GTEST_SKIP() << (*device)->note;
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        Dice dice(seed);
+        Scene scene;
+        for (int i = 0; i < 6; ++i) { // each of three meshes in two colours
+            scene.meshes.push_back(i % 3 == 0       ? makePlane(0.8f, 3, 1)
+                                       : i % 3 == 1 ? makeCube(0.4f, 1)
+                                                    : makeSphere(0.3f, 8));
+            scene.meshes.back().material = i;
+            Material& material = scene.materials.emplace_back();
+            material.baseColor = glm::vec4(dice.three(0.1f, 1), 1);
+            material.unlit = true;
+            material.doubleSided = dice.heads();
+        }
+        for (int i = 0; i < 300; ++i) {
+            glm::mat4 to = glm::translate(glm::mat4(1), dice.three(-1.4f, 1.4f));
+            to = glm::rotate(to, dice.from(-3, 3), glm::normalize(dice.three(0.1f, 1)));
+            scene.instances.push_back(
+                {"", dice.below(6), glm::scale(to, glm::vec3(dice.heads() ? -1.0f : 1.0f, 1, dice.from(0.5f, 1.5f)))});
+        }
+        View view = randomView(dice, Output::shaded);
+        view.width = 88;
+        view.height = 72;
+        view.samples = 4;
+        view.frame = Frame::cotangent;
+        ASSERT_TRUE((*device)->load(scene));
+        ASSERT_TRUE((*reference)->load(scene));
+        const auto a = (*device)->draw(view), b = (*reference)->draw(view);
+        ASSERT_TRUE(a) << a.error().message;
+        ASSERT_TRUE(b) << b.error().message;
+        // A surface that is missing covers more pixels than rounding moves edges.
+        EXPECT_LT(between(*a, *b).fraction, 0.002) << "seed " << seed;
+    }
+}
+
 } // namespace
 } // namespace cotan

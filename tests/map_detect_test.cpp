@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -50,6 +53,23 @@ Image exchanged(const Image& image)
 }
 
 GreenVerdict verdict(const Image& image) { return greenOf(image); }
+
+// A model's map is surveyed in up to 256 small parts, and starting a thread takes longer than one of them.
+TEST(RowBands, of_few_texels_are_worked_on_by_the_caller)
+{
+    const auto here = std::this_thread::get_id();
+    std::vector<int> calls(64, 0);
+    for (const auto& [width, height] : {std::pair(17, 17), std::pair(64, 64), std::pair(4096, 1), std::pair(1, 64)}) {
+        std::fill(calls.begin(), calls.end(), 0);
+        forRowBands(width, height, [&](int first, int last) {
+            EXPECT_EQ(std::this_thread::get_id(), here) << width << " x " << height;
+            for (int y = first; y < last; ++y)
+                ++calls[std::size_t(y)];
+        });
+        for (int y = 0; y < 64; ++y)
+            EXPECT_EQ(calls[std::size_t(y)], y < height ? 1 : 0) << width << " x " << height;
+    }
+}
 
 TEST(Detect, names_the_green_of_analytic_reliefs)
 {
