@@ -370,11 +370,6 @@ TEST(CommandWords, theNearestCommandIsSuggested)
     EXPECT_EQ(editDistance("abc", ""), 3u);
     EXPECT_EQ(editDistance("abcd", "acbd"), 1u); // adjacent letters exchanged
     EXPECT_EQ(editDistance("kitten", "sitting"), 3u);
-    EXPECT_EQ(quoted("a-b_c/d.E9"), "a-b_c/d.E9");
-    EXPECT_EQ(quoted("C:/a"), "C:/a");
-    EXPECT_EQ(quoted(""), "''");
-    EXPECT_EQ(quoted("it's"), "'it'\\''s'");
-    EXPECT_EQ(quoted("a b"), "'a b'");
 }
 
 // As std::from_chars: the same end, error and bits.

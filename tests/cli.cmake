@@ -34,7 +34,7 @@ if(Python3_FOUND)
 endif()
 # Parsing of words to values, without a process.
 cotan_test(words_test
-  SOURCES arguments_test.cpp completion_text_test.cpp file_words_test.cpp help_text_test.cpp bake_scenes_test.cpp camera_arguments_test.cpp picture_light_test.cpp picture_options_test.cpp turntable_test.cpp
+  SOURCES arguments_test.cpp completion_text_test.cpp file_words_test.cpp help_text_test.cpp bake_scenes_test.cpp camera_arguments_test.cpp picture_light_test.cpp picture_options_test.cpp shell_words_test.cpp turntable_test.cpp
   LIBRARIES cotan_app cotan_scene fmt::fmt)
 # Manual pages, and completion by the shells themselves.
 foreach(part man words bash zsh fish)

@@ -13,7 +13,7 @@
 #include "lint_lines.hpp"
 #include "loading.hpp"
 #include "map_files/choose.hpp"
-#include "terminal/command_words.hpp"
+#include "terminal/shell_words.hpp"
 
 namespace cotan::app {
 

@@ -13,24 +13,11 @@
 #include "picture/option_table.hpp"
 #include "scene/geometry.hpp"
 #include "settings.hpp"
+#include "terminal/shell_words.hpp"
 
 namespace cotan::viewer {
 
 namespace {
-
-// Quotes a word for a shell if necessary.
-std::string quoted(const std::string& word)
-{
-    const bool safe = !word.empty()
-        && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:@%,")
-            == std::string::npos;
-    if (safe)
-        return word;
-    std::string text = "'";
-    for (const char c : word)
-        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
 
 // Whether only the window shows this image: it has both models, detail of several files, or the light of one model on
 // the other.
@@ -152,12 +139,12 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
     const bool compares = both && !views;
     std::string text = views ? "cotan view" : compares ? "cotan compare" : "cotan render";
     const auto add = [&](const std::string& name, const std::string& value) {
-        text += " --" + name + " " + quoted(value);
+        text += " --" + name + " " + app::quoted(value);
     };
     if (!o.model.empty())
-        text += " " + quoted(o.model);
+        text += " " + app::quoted(o.model);
     if (!views)
-        text += " -o " + quoted(file);
+        text += " -o " + app::quoted(file);
     text += fmt::format(" --size {}x{}", size.x, size.y);
     for (std::size_t i = 0; views && i < state.high.size(); ++i)
         add("high", state.high[i]);

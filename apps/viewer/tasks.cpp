@@ -4,7 +4,7 @@
 
 #include "command_words.hpp"
 #include "gltf_open.hpp"
-#include "terminal/command_words.hpp"
+#include "terminal/shell_words.hpp"
 
 namespace cotan::viewer {
 
@@ -163,12 +163,6 @@ Result<Task> taskNamed(const State& state, const std::string& name)
     return expected("run", names, name).error();
 }
 
-std::string commandLine(const Task& task)
-{
-    std::string line = "cotan";
-    for (const std::string& word : task.words)
-        line += " " + app::quoted(word);
-    return line;
-}
+std::string commandLine(const Task& task) { return "cotan " + app::commandLine(task.words); }
 
 } // namespace cotan::viewer

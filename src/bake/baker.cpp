@@ -306,7 +306,7 @@ std::size_t Baker::look(const Probes& probes, const Hits& hits, std::span<const 
 std::size_t Baker::lookOut(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
                            Around& around) const
 {
-    Lanes<int> looks{}, open{}, any;
+    Lanes<int> looks{}, open{}, any{};
     Lanes3 sums;
     const std::size_t count = look(probes, hits, rasterTexels, 1, [&](std::size_t lane, const Probes& rays) {
         high_.anyBetween(rays, any, true);
@@ -331,7 +331,7 @@ std::size_t Baker::lookIn(const Probes& probes, const Hits& hits, std::span<cons
 {
     Lanes<int> looks{};
     Lanes<double> lengths{};
-    Lanes<float> found;
+    Lanes<float> found{};
     const double longest = unitOf(BakeKind::thickness);
     const std::size_t count = look(probes, hits, rasterTexels, -1, [&](std::size_t lane, const Probes& rays) {
         high_.distances(rays, found);

@@ -97,7 +97,7 @@ fs::path linkTarget(fs::path file)
 // every folder, whatever the extension, and drops spaces at the end. Empty for other names.
 std::string reservedName(const fs::path& file)
 {
-    if (!devicesHaveNames())
+    if (!onWindows())
         return {};
     std::string name = file.filename().string();
     name = name.substr(0, name.find_first_of(".:"));

@@ -28,9 +28,12 @@ Result<Context> open(int width, int height, float effort, unsigned flags, unsign
     astcenc_config config{};
     astcenc_error code =
         astcenc_config_init(ASTCENC_PRF_LDR, unsigned(width), unsigned(height), 1, effort, flags, &config);
-    // The library keeps these two of its first context for all later ones, and their defaults depend on the block size:
-    // without one value for all, the blocks would depend on what the process has encoded before.
-    config.tune_mode0_mse_overshoot = config.tune_refinement_mse_overshoot = 3.5f;
+    // Before 5.2 the library keeps two values of its first context for all later ones. Their defaults depend on the
+    // block size: without one value for all, the blocks would depend on what the process has encoded before.
+    [](auto& tuned) {
+        if constexpr (requires { tuned.tune_mode0_mse_overshoot; })
+            tuned.tune_mode0_mse_overshoot = tuned.tune_refinement_mse_overshoot = 3.5f;
+    }(config);
     astcenc_context* context = nullptr;
     if (code == ASTCENC_SUCCESS)
         code = astcenc_context_alloc(&config, threads, &context);

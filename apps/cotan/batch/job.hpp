@@ -28,7 +28,7 @@ struct JobOptions {
 };
 
 struct Job {
-    std::string name;               // unique; defaults to the command line
+    std::string name;               // unique; defaults to the command line, for sh
     std::vector<std::string> words; // of the command line, without the program
     // Files known before the job runs, from its words and from the job file, as written there: relative to the folder
     // of the jobs. Outputs may be folders; * in their names stands for what only the job finds out.
@@ -46,9 +46,6 @@ struct JobList {
     std::filesystem::path folder; // absolute: where the jobs run; their files are relative to it
     std::vector<Job> jobs;
 };
-
-// The words quoted for a shell, on one line.
-std::string commandLine(const std::vector<std::string>& words);
 
 // Checks the words of a job and sets its files. Errors: what is wrong with the words.
 using CheckWords = std::function<Status(Job&)>;

@@ -10,7 +10,7 @@
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/json.hpp"
-#include "terminal/command_words.hpp"
+#include "terminal/shell_words.hpp"
 
 namespace cotan::app {
 
@@ -133,7 +133,7 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
             return expected("name", fmt::format("a string of 1 to {} bytes", kMaxNameBytes), name);
         job.name = oneLine(name.get<std::string>(), kMaxNameBytes);
     } else {
-        job.name = commandLine(job.words);
+        job.name = commandLine(job.words, Shell::posix); // the same on every system, where parts of a batch may run
     }
     if (Status good = check(job); !good)
         return inputError(good.error().message);
@@ -144,14 +144,6 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
 }
 
 } // namespace
-
-std::string commandLine(const std::vector<std::string>& words)
-{
-    std::string line;
-    for (const std::string& word : words)
-        line += (line.empty() ? "" : " ") + quoted(word);
-    return line;
-}
 
 std::vector<std::string> Job::key() const
 {

@@ -10,6 +10,7 @@
 #include "core/named_values.hpp"
 #include "html.hpp"
 #include "page_html.hpp" // kPage: batch/page.html
+#include "terminal/shell_words.hpp"
 
 namespace cotan::app {
 

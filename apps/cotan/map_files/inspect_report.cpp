@@ -5,7 +5,7 @@
 
 #include "cotan/maps.hpp"
 #include "map_files/inspect.hpp"
-#include "terminal/command_words.hpp"
+#include "terminal/shell_words.hpp"
 
 namespace cotan::app {
 

@@ -80,14 +80,4 @@ std::vector<std::string> withoutEquals(std::vector<std::string> words)
     return words;
 }
 
-std::string quoted(const std::string& path)
-{
-    const bool plain = path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:")
-        == std::string::npos;
-    std::string text = "'";
-    for (char c : path)
-        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return plain && !path.empty() ? path : text + "'";
-}
-
 } // namespace cotan::app

@@ -1,4 +1,4 @@
-// Words of a command line: those that name a command, checked before all others, and paths.
+// Words of a command line: those that name a command, checked before all others.
 #pragma once
 
 #include <span>
@@ -28,8 +28,5 @@ std::vector<std::string> withoutEquals(std::vector<std::string> words);
 
 // Edit distance: letters to insert, delete, replace, or swap with a neighbour.
 std::size_t editDistance(std::string_view a, std::string_view b);
-
-// A path quoted as a word for a shell.
-std::string quoted(const std::string& path);
 
 } // namespace cotan::app

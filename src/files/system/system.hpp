@@ -34,8 +34,8 @@ FileKind fileNumber(const std::filesystem::path& file, FileNumber& number);
 // Whether the name itself leads to an open file or a device: /dev/stdout.
 bool isNameOfDevice(const std::filesystem::path& file);
 
-// Whether names such as CON mean devices in every folder, as on Windows.
-bool devicesHaveNames();
+// Whether this is Windows, with its names of devices and its shell. Also true of WebAssembly that Node.js runs there.
+bool onWindows();
 
 pid_t thisProcess();
 bool isRunning(pid_t process); // on this machine

@@ -48,7 +48,7 @@ bool isNameOfDevice(const fs::path& file)
 }
 
 // WebAssembly has this code too. Node.js on Windows runs it under the name of that system.
-bool devicesHaveNames()
+bool onWindows()
 {
     utsname name{};
     return ::uname(&name) == 0 && std::string_view(name.sysname) == "Windows_NT";

@@ -59,7 +59,7 @@ FileKind fileNumber(const fs::path& file, FileNumber& number)
 
 bool isNameOfDevice(const fs::path&) { return false; }
 
-bool devicesHaveNames() { return true; }
+bool onWindows() { return true; }
 
 pid_t thisProcess() { return pid_t(::GetCurrentProcessId()); }
 
