@@ -67,6 +67,9 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 // Calls work(first, last) for bands of rows, on all threads of the caller's arena. Results must depend only on rows.
 void forRowBands(int height, const std::function<void(int first, int last)>& work);
 
+// Copies `count` rows of an image, from row `first` on.
+Image rowsOf(const Image& image, int first, int count);
+
 // Replaces every texel: loads each row, calls change(texel) on its texels, and stores the row.
 template<class Change> void changeTexels(Image& image, const Change& change)
 {
