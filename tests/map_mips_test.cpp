@@ -58,11 +58,12 @@ TEST(Mips, rows_that_arrive_one_after_another_have_the_levels_of_the_chain)
                 const MipSettings settings{.type = type};
                 const auto chain = mipChain(rowsOf(0, height), settings);
                 std::vector<std::vector<std::byte>> levels(chain.size());
-                MipRows mips(width, height, settings, /*averagesAlpha*/ true);
+                MipRows mips(width, height, settings, MipRows::averaged);
                 for (int y = 0; y < height; y += atOnce)
-                    mips.add(rowsOf(y, std::min(atOnce, height - y)), [&](std::size_t level, const Image& rows) {
-                        levels[level].insert(levels[level].end(), rows.data.begin(), rows.data.end());
-                    });
+                    mips.add(rowsOf(y, std::min(atOnce, height - y)),
+                             [&](std::size_t level, const Image& rows, const Image&) {
+                                 levels[level].insert(levels[level].end(), rows.data.begin(), rows.data.end());
+                             });
                 for (std::size_t i = 1; i < chain.size(); ++i)
                     EXPECT_EQ(levels[i], chain[i].normals.data) << width << " x " << height << ", " << i;
             }
@@ -74,8 +75,8 @@ TEST(Mips, alpha_is_the_mean_of_four_texels)
     for (int i = 0; i < 8; ++i)
         map.floats()[4 * i + 3] = float(i) / 8;
     std::vector<float> alphas;
-    MipRows mips(4, 2, {.type = PixelType::float32}, /*averagesAlpha*/ true);
-    mips.add(map, [&](std::size_t, const Image& rows) {
+    MipRows mips(4, 2, {.type = PixelType::float32}, MipRows::averaged);
+    mips.add(map, [&](std::size_t, const Image& rows, const Image&) {
         for (std::size_t i = 0; i < rows.pixelCount(); ++i)
             alphas.push_back(rows.floats()[4 * i + 3]);
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 
@@ -14,19 +15,6 @@ namespace cotan::maps {
 using Moments = MipMoments;
 
 namespace {
-
-struct Level {
-    int width = 0, height = 0;
-    std::vector<Moments> texels;
-};
-
-// Copies rows of a level, for smaller() and encoded().
-auto rowsOf(const Level& level)
-{
-    return [&level](int y, std::vector<Moments>& row) {
-        std::copy_n(level.texels.begin() + std::ptrdiff_t(y) * level.width, row.size(), row.begin());
-    };
-}
 
 Moments momentsOf(const glm::vec3& decoded)
 {
@@ -68,25 +56,6 @@ void addRow(std::span<const Moments> row, float weight, std::span<Moments> to)
 
 glm::vec3 meanOf(const Moments& m) { return m.coverage > 0 ? m.normal / m.coverage : glm::vec3(0); }
 
-// rowOf(y, row): fills `row` with the moments of row y of the larger level.
-template<class RowOf> Level smaller(int width, int height, RowOf rowOf)
-{
-    Level level{std::max(1, width / 2), std::max(1, height / 2), {}};
-    level.texels.resize(std::size_t(level.width) * std::size_t(level.height));
-    forRowBands(level.width, level.height, [&](int firstRow, int lastRow) {
-        std::vector<Moments> row(std::size_t(width), Moments{});
-        for (int y = firstRow; y < lastRow; ++y) {
-            const Footprint down = footprint(y, level.height, height);
-            for (int fy = down.first; fy <= down.last; ++fy) {
-                rowOf(fy, row);
-                addRow(row, down.weight(fy),
-                       {&level.texels[std::size_t(y) * std::size_t(level.width)], std::size_t(level.width)});
-            }
-        }
-    });
-    return level;
-}
-
 double roughnessOf(const Moments& m, const MipSettings& s)
 {
     if (!(m.coverage > 0))
@@ -95,38 +64,6 @@ double roughnessOf(const Moments& m, const MipSettings& s)
         return roughnessFromLength(s.roughness, std::min(1.0, double(glm::length(m.normal)) / m.coverage), s.model);
     const double bx = double(m.bx / m.coverage), by = double(m.by / m.coverage), bb = double(m.bb / m.coverage);
     return roughnessFromVariance(s.roughness, std::max(0.0, bb - bx * bx - by * by));
-}
-
-// rowOf: as for smaller().
-template<class RowOf> MipLevel encoded(int width, int height, const MipSettings& s, RowOf rowOf)
-{
-    MipLevel out{makeImage(width, height, s.type), makeImage(width, height, s.type)};
-    std::vector<double> lengths(std::size_t(height), 0), roughness(lengths), counts(lengths);
-    forRowBands(width, height, [&](int first, int last) {
-        std::vector<Moments> row(std::size_t(width), Moments{});
-        std::vector<glm::vec4> normals(row.size()), rough(row.size());
-        for (int y = first; y < last; ++y) {
-            rowOf(y, row);
-            for (std::size_t x = 0; x < row.size(); ++x) {
-                const Moments& m = row[x];
-                const glm::vec3 mean = meanOf(m);
-                normals[x] = encodeTexel(mean, s.to, s.type, s.keepLengths);
-                const double r = roughnessOf(m, s);
-                rough[x] = glm::vec4(float(r), float(r), float(r), 1);
-                roughness[std::size_t(y)] += r;
-                if (m.coverage > 0)
-                    lengths[std::size_t(y)] += double(glm::length(mean)), counts[std::size_t(y)] += 1;
-            }
-            storeRow(out.normals, y, normals);
-            storeRow(out.roughness, y, rough);
-        }
-    });
-    double length = 0, sum = 0, count = 0;
-    for (std::size_t y = 0; y < lengths.size(); ++y)
-        length += lengths[y], sum += roughness[y], count += counts[y];
-    out.meanLength = count > 0 ? length / count : 0;
-    out.meanRoughness = sum / (double(width) * height);
-    return out;
 }
 
 } // namespace
@@ -154,50 +91,58 @@ double roughnessFromVariance(double roughness, double variance)
 
 std::vector<MipLevel> mipChain(const Image& map, const MipSettings& settings)
 {
+    constexpr int kTexels = 1 << 20; // at once, enough for all threads
+    MipRows mips(map.width, map.height, settings, MipRows::roughness);
     std::vector<MipLevel> chain;
-    const auto fromMap = [&](int y, std::vector<Moments>& row) {
-        std::vector<glm::vec3> normals(row.size());
-        decodeRow(map, y, settings.from, normals);
-        std::ranges::transform(normals, row.begin(), momentsOf);
-    };
-    chain.push_back(encoded(map.width, map.height, settings, fromMap));
-    Level level;
-    for (int width = map.width, height = map.height; width > 1 || height > 1;
-         width = level.width, height = level.height) {
-        level = chain.size() == 1 ? smaller(width, height, fromMap) : smaller(width, height, rowsOf(level));
-        chain.push_back(encoded(level.width, level.height, settings, rowsOf(level)));
+    for (std::size_t i = 0; i < mips.levels(); ++i) {
+        const auto [width, height] = mips.size(i);
+        chain.push_back({makeImage(width, height, settings.type), makeImage(width, height, settings.type)});
     }
+    std::vector<std::size_t> at(chain.size(), 0); // bytes that were made
+    const int atOnce = std::max(1, kTexels / map.width);
+    for (int y = 0; y < map.height; y += atOnce)
+        mips.add(rowsOf(map, y, std::min(atOnce, map.height - y)), [&](std::size_t i, Image normals, Image rough) {
+            std::copy(normals.data.begin(), normals.data.end(), chain[i].normals.data.begin() + std::ptrdiff_t(at[i]));
+            std::copy(rough.data.begin(), rough.data.end(), chain[i].roughness.data.begin() + std::ptrdiff_t(at[i]));
+            at[i] += normals.data.size();
+        });
+    for (std::size_t i = 0; i < chain.size(); ++i)
+        std::tie(chain[i].meanLength, chain[i].meanRoughness) = mips.means(i);
     return chain;
 }
 
-MipRows::MipRows(int width, int height, const MipSettings& settings, bool averagesAlpha)
-    : settings_(settings), averagesAlpha_(averagesAlpha)
+MipRows::MipRows(int width, int height, const MipSettings& settings, Alpha alpha) : settings_(settings), alpha_(alpha)
 {
     levels_.push_back({width, height});
     while (levels_.back().width > 1 || levels_.back().height > 1)
         levels_.push_back({std::max(1, levels_.back().width / 2), std::max(1, levels_.back().height / 2)});
 }
 
+std::pair<double, double> MipRows::means(std::size_t i) const
+{
+    const Level& level = levels_[i];
+    return {level.count > 0 ? level.length / level.count : 0, level.roughness / (double(level.width) * level.height)};
+}
+
 void MipRows::add(const Image& rows, const Take& take)
 {
-    std::vector<Moments>& moments = levels_[0].moments;
-    std::vector<float>& alphas = levels_[0].alphas;
-    const std::size_t width = std::size_t(rows.width), start = moments.size();
-    moments.resize(start + rows.pixelCount());
-    alphas.resize(averagesAlpha_ ? moments.size() : 0);
+    Level& map = levels_[0];
+    const std::size_t width = std::size_t(rows.width), start = map.grow(rows.height);
     forRowBands(rows.width, rows.height, [&](int first, int last) {
         std::vector<glm::vec3> normals(width);
         std::vector<glm::vec4> texels(width);
         for (int y = first; y < last; ++y) {
-            const std::size_t at = start + std::size_t(y) * width;
+            Moments* const row = &map.moments[start + std::size_t(y) * width];
             decodeRow(rows, y, settings_.from, normals);
-            std::ranges::transform(normals, moments.begin() + std::ptrdiff_t(at), momentsOf);
-            if (!averagesAlpha_)
-                continue;
-            loadRow(rows, y, texels);
-            std::ranges::transform(texels, alphas.begin() + std::ptrdiff_t(at), &glm::vec4::w);
+            std::ranges::transform(normals, row, momentsOf);
+            if (alpha_ == averaged)
+                loadRow(rows, y, texels);
+            for (std::size_t x = 0; x < width && alpha_ == averaged; ++x)
+                row[x].alpha = texels[x].w;
         }
     });
+    if (alpha_ == roughness)
+        store(0, rows.height, start, take);
     for (std::size_t i = 1; i < levels_.size(); ++i)
         makeRows(i, take);
 }
@@ -211,32 +156,65 @@ void MipRows::makeRows(std::size_t i, const Take& take)
         ++level.next;
     if (level.next == first)
         return;
-    Image rows = makeImage(level.width, level.next - first, settings_.type);
-    const std::size_t start = level.moments.size();
-    level.moments.resize(start + rows.pixelCount());
-    level.alphas.resize(averagesAlpha_ ? level.moments.size() : 0);
-    forRowBands(rows.width, rows.height, [&](int firstRow, int lastRow) {
-        std::vector<glm::vec4> texels(width);
+    const std::size_t start = level.grow(level.next - first);
+    forRowBands(level.width, level.next - first, [&](int firstRow, int lastRow) {
         for (int y = firstRow; y < lastRow; ++y) {
             const std::size_t at = start + std::size_t(y) * width;
-            const std::span<Moments> sums(&level.moments[at], width);
             const Footprint down = footprint(first + y, level.height, larger.height);
             for (int fy = down.first; fy <= down.last; ++fy)
-                addRow({&larger.moments[std::size_t(fy - larger.first) * from], from}, down.weight(fy), sums);
-            for (std::size_t x = 0; x < width; ++x) {
-                texels[x] = encodeTexel(meanOf(sums[x]), settings_.to, settings_.type, settings_.keepLengths);
-                if (averagesAlpha_)
-                    texels[x].w = larger.meanAlpha(int(x), first + y);
-            }
-            storeRow(rows, y, texels);
-            if (!averagesAlpha_)
-                continue;
-            loadRow(rows, y, texels);
-            std::ranges::transform(texels, level.alphas.begin() + std::ptrdiff_t(at), &glm::vec4::w);
+                addRow({&larger.moments[std::size_t(fy - larger.first) * from], from}, down.weight(fy),
+                       {&level.moments[at], width});
+            for (std::size_t x = 0; x < width && alpha_ == averaged; ++x)
+                level.moments[at + x].alpha = larger.meanAlpha(int(x), first + y);
         }
     });
     larger.keepFrom(level.next < level.height ? footprint(level.next, level.height, larger.height).first : end);
-    take(i, std::move(rows));
+    store(i, level.next - first, start, take);
+}
+
+void MipRows::store(std::size_t i, int count, std::size_t start, const Take& take)
+{
+    Level& level = levels_[i];
+    const std::size_t width = std::size_t(level.width);
+    Image normals = makeImage(level.width, count, settings_.type), grey;
+    if (alpha_ == roughness)
+        grey = normals;
+    std::vector<double> lengths(std::size_t(count), 0), rough(lengths), counts(lengths);
+    forRowBands(level.width, count, [&](int first, int last) {
+        std::vector<glm::vec4> texels(width), greys(width);
+        for (int y = first; y < last; ++y) {
+            Moments* const row = &level.moments[start + std::size_t(y) * width];
+            for (std::size_t x = 0; x < width; ++x) {
+                const glm::vec3 mean = meanOf(row[x]);
+                texels[x] = encodeTexel(mean, settings_.to, settings_.type, settings_.keepLengths);
+                texels[x].w = row[x].alpha;
+                if (alpha_ != roughness)
+                    continue;
+                const double r = roughnessOf(row[x], settings_);
+                greys[x] = glm::vec4(float(r), float(r), float(r), 1);
+                rough[std::size_t(y)] += r;
+                if (row[x].coverage > 0)
+                    lengths[std::size_t(y)] += double(glm::length(mean)), counts[std::size_t(y)] += 1;
+            }
+            storeRow(normals, y, texels);
+            if (alpha_ == roughness)
+                storeRow(grey, y, greys);
+            if (alpha_ == averaged)
+                loadRow(normals, y, texels); // as stored
+            for (std::size_t x = 0; x < width && alpha_ == averaged; ++x)
+                row[x].alpha = texels[x].w;
+        }
+    });
+    for (std::size_t y = 0; y < lengths.size(); ++y)
+        level.length += lengths[y], level.roughness += rough[y], level.count += counts[y];
+    take(i, std::move(normals), std::move(grey));
+}
+
+std::size_t MipRows::Level::grow(int rows)
+{
+    const std::size_t start = moments.size();
+    moments.resize(start + std::size_t(rows) * std::size_t(width));
+    return start;
 }
 
 float MipRows::Level::meanAlpha(int x, int y) const
@@ -245,17 +223,14 @@ float MipRows::Level::meanAlpha(int x, int y) const
     float sum = 0;
     for (int k = 0; k < down; ++k)
         for (int i = 0; i < across; ++i)
-            sum += alphas[std::size_t(2 * y + k - first) * std::size_t(width) + std::size_t(2 * x + i)]
+            sum += moments[std::size_t(2 * y + k - first) * std::size_t(width) + std::size_t(2 * x + i)].alpha
                 / float(across * down);
     return sum;
 }
 
 void MipRows::Level::keepFrom(int row)
 {
-    const std::ptrdiff_t count = std::ptrdiff_t(row - first) * width;
-    moments.erase(moments.begin(), moments.begin() + count);
-    if (!alphas.empty())
-        alphas.erase(alphas.begin(), alphas.begin() + count);
+    moments.erase(moments.begin(), moments.begin() + std::ptrdiff_t(row - first) * width);
     first = row;
 }
 

@@ -199,4 +199,12 @@ std::vector<float> anglesBetween(const Image& a, const Convention& conventionA, 
     return degrees;
 }
 
+Image rowsOf(const Image& image, int first, int count)
+{
+    Image rows = makeImage(image.width, count, image.type, image.name);
+    const std::size_t bytes = std::size_t(image.width) * image.bytesPerPixel();
+    std::copy_n(image.data.data() + std::size_t(first) * bytes, std::size_t(count) * bytes, rows.data.data());
+    return rows;
+}
+
 } // namespace cotan::maps

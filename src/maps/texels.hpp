@@ -68,6 +68,9 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 // texels. Results must depend only on rows.
 void forRowBands(int width, int height, const std::function<void(int first, int last)>& work);
 
+// Copies `count` rows of an image, from row `first` on.
+Image rowsOf(const Image& image, int first, int count);
+
 // Replaces every texel: loads each row, calls change(texel) on its texels, and stores the row.
 template<class Change> void changeTexels(Image& image, const Change& change)
 {

@@ -73,17 +73,6 @@ Image sampleOf(const Image& map, int square = 24, int left = 0, int top = 0)
     return sample;
 }
 
-// texels: what is stored; map: what it is compared with, in the convention `read`. to: how the texture is read.
-Result<TriedFormat> tryFormat(const std::string& word, const TexelCode& code, const Image& texels, const Image& map,
-                              const Convention& read, const Convention& to)
-{
-    COTAN_TRY(level, levelOf(texels, code, to));
-    ValueStatistics degrees;
-    COTAN_CHECK(addCosts(map, read, *level, code, to, "map.ktx2", degrees));
-    const TextureCost cost = costOf(degrees);
-    return TriedFormat{word, bitsPerTexel(code), cost.mean, cost.percentile99};
-}
-
 } // namespace
 
 Json toJson(const TriedFormat& format)
@@ -105,7 +94,10 @@ Result<TriedFormat> costOfFormat(const Image& image, const Convention& conventio
     RecodeCounts counts;
     const Convention taken = codeConvention(*code, to);
     const Image given = recode(image, {.from = convention, .to = taken, .type = PixelType::float32}, counts);
-    return tryFormat(word, *code, given, given, taken, to);
+    COTAN_TRY(level, levelOf(given, *code, to));
+    ValueStatistics degrees;
+    COTAN_CHECK(addCosts(given, taken, *level, *code, to, "map.ktx2", degrees));
+    return TriedFormat{word, bitsPerTexel(*code), degrees.mean(), degrees.percentile(0.99)};
 }
 
 } // namespace
@@ -137,34 +129,29 @@ std::optional<double> costBefore(const Image& map, const Convention& convention)
     return cost ? std::optional(cost->meanDegrees) : std::nullopt;
 }
 
-Result<ChosenFormat> chooseFormat(const Image& map, const Convention& to, const std::string& swizzle, bool dither,
-                                  const std::filesystem::path& file, const FormatBudget& budget,
-                                  const FileOptions& files)
+Result<ChosenFormat> chooseFormat(const Convention& to, const std::string& swizzle, const std::filesystem::path& file,
+                                  const FormatBudget& budget, const MakeTexture& make)
 {
     COTAN_TRY(candidates, candidatesFor(to, swizzle, file, budget.device));
-    Convention stored = to;
-    stored.expansion = Expansion::biased;
-    CountedSteps steps(files.progress, candidates->size());
     ChosenFormat chosen;
     std::optional<TriedFormat> best;
-    for (const Candidate& candidate : *candidates) {
+    for (std::size_t i = 0; i < candidates->size(); ++i) {
+        const Candidate& candidate = (*candidates)[i];
         if (best && candidate.bits > best->bitsPerTexel)
             break;
-        if (!steps.step())
-            return stoppedError();
-        Image pixels; // of a texture without blocks
-        maps::RecodeCounts counts;
-        if (candidate.code == TexelCode::rgba8)
-            pixels = recode(map, {.from = stored, .to = to, .type = PixelType::unorm8, .dither = dither}, counts);
-        COTAN_TRY(tried,
-                  tryFormat(candidate.word, candidate.code, pixels.data.empty() ? map : pixels, map, stored, to));
-        const TriedFormat& cost = chosen.tried.emplace_back(*tried);
-        if (cost.meanDegrees > budget.limits.mean || cost.percentile99 > budget.limits.percentile99
-            || (best && cost.meanDegrees >= best->meanDegrees))
+        COTAN_TRY(made, make(candidate.code, i, candidates->size()));
+        if (!made->cost)
+            return Error{ErrorKind::unavailable,
+                         fmt::format("{}: this build cannot read {}, to measure it", file.string(), candidate.word)};
+        const auto& [mean, percentile99] = *made->cost;
+        chosen.tried.push_back({candidate.word, candidate.bits, mean, percentile99});
+        if (mean > budget.limits.mean || percentile99 > budget.limits.percentile99
+            || (best && mean >= best->meanDegrees))
             continue;
-        best = cost;
+        best = chosen.tried.back();
         chosen.compress = candidate.word;
         chosen.code = candidate.code;
+        chosen.made = *std::move(made);
     }
     if (best)
         return chosen;

@@ -1,6 +1,7 @@
 // Chooses the block format of a texture by what it costs in degrees.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +9,7 @@
 #include "cotan/frame_choice.hpp"
 #include "files/json.hpp"
 #include "map_file.hpp"
-#include "maps/textures/texel_code.hpp"
+#include "maps/textures/make_texture.hpp"
 
 namespace cotan::app {
 
@@ -31,18 +32,22 @@ Json toJson(const TriedFormat& format);
 struct ChosenFormat {
     std::string compress; // the word of --compress
     maps::TexelCode code;
+    maps::MadeTexture made;
     std::vector<TriedFormat> tried; // the smallest first
 };
 
+// Makes the texture in a format, candidate `number` of at most `count`, and measures it.
+using MakeTexture =
+    std::function<Result<maps::MadeTexture>(const maps::TexelCode& code, std::size_t number, std::size_t count)>;
+
 // The smallest format within the budget; of equally small ones that with the least mean angle. Larger formats than the
-// chosen one are not tried.
-// map: float32, in `to` with biased expansion, as blocks need it. to: with three channels the formats hold three, with
-// two, two. swizzle: a word of swizzleWords; formats that cannot have it are left out. dither: of pixels. file: the
-// texture's name, for its container.
-// Errors: ErrorKind::usage as codeFor; ErrorKind::limit if none is within; ErrorKind::stopped.
-Result<ChosenFormat> chooseFormat(const Image& map, const Convention& to, const std::string& swizzle, bool dither,
-                                  const std::filesystem::path& file, const FormatBudget& budget,
-                                  const FileOptions& files);
+// chosen one are not made.
+// to: with three channels the formats hold three, with two, two. swizzle: a word of swizzleWords; formats that cannot
+// have it are left out. file: the texture's name, for its container.
+// Errors: ErrorKind::usage as codeFor; ErrorKind::limit if none is within; ErrorKind::unavailable if a format cannot be
+// decoded; as `make`.
+Result<ChosenFormat> chooseFormat(const Convention& to, const std::string& swizzle, const std::filesystem::path& file,
+                                  const FormatBudget& budget, const MakeTexture& make);
 
 // What the formats of models and engines would cost a normal map of three channels, read in `convention`: uastc, bc7,
 // astc-6x6 and astc-8x8, and of two channels bc5 and eac-rg11. Large maps are sampled: 64 squares of 24 texels a side.

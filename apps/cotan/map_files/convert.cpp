@@ -1,6 +1,9 @@
 #include "map_files/convert.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -46,76 +49,60 @@ Result<Image> convertByMesh(const std::filesystem::path& file, const MeshOfMap& 
     return converted;
 }
 
-Result<Image> convertWhole(const std::filesystem::path& file, const RecodeSettings& settings, const FileOptions& files,
-                           ConvertedFile& done)
+// The rows of a map, from the top: as converted, and as a texture has them.
+using NextRows = std::function<Result<Image>(int first, int count)>;
+
+// Makes a texture of rows that are stored in `from`, blocks or pixels of them. Measures it, but for pixels only with a
+// budget.
+Result<MadeTexture> textureOf(int width, int height, const NextRows& next, const Convention& from,
+                              const TexelCode& code, const std::filesystem::path& out, const ConvertFileOptions& o,
+                              const std::string& frame)
 {
-    COTAN_TRY(map, readMap(file, settings.from, "options.from", files.limits));
-    addNote(map->note, done.notes);
-    CountedSteps steps(files.progress, 2);
-    if (!steps.step())
-        return stoppedError();
-    Image converted = recode(map->image, settings, done.counts);
-    if (!steps.step())
-        return stoppedError();
-    return converted;
+    const bool pixels = code == TexelCode::rgba8;
+    TextureRows texture(width, height, code, pixels ? o.to : from,
+                        {.from = from, .to = o.to, .file = out, .mips = o.mips});
+    const int atOnce = rowsAtOnce(width);
+    for (int y = 0; y < height; y += atOnce) {
+        COTAN_TRY(rows, next(y, std::min(atOnce, height - y)));
+        if (!o.budget || !pixels) {
+            COTAN_CHECK(texture.add(*rows, pixels ? nullptr : &*rows));
+            continue;
+        }
+        RecodeCounts counts;
+        const RecodeSettings settings{.from = from, .to = o.to, .dither = o.dither, .firstRow = y};
+        COTAN_CHECK(texture.add(recode(*rows, settings, counts), &*rows));
+    }
+    return texture.finish(frame);
 }
 
-Status write(const std::filesystem::path& out, const MadeTexture& made, ConvertedFile& done)
-{
-    done.cost = made.cost;
-    return writeFileWhole(out, {reinterpret_cast<const char*>(made.bytes.data()), made.bytes.size()});
-}
-
-// Writes a texture of a whole map, in `stored`.
-Status writeTexture(const std::filesystem::path& out, const Image& map, const Convention& stored, const TexelCode& code,
-                    const ConvertFileOptions& o, ConvertedFile& done)
-{
-    COTAN_TRY(
-        made,
-        wholeTexture(map, code, code != TexelCode::rgba8, {.from = stored, .to = o.to, .file = out, .mips = o.mips}));
-    return write(out, *made, done);
-}
-
-// Writes the texture that fits the budget. map: as chooseFormat takes it.
-Status writeChosen(const std::filesystem::path& out, const Image& map, const Convention& stored,
-                   const ConvertFileOptions& o, const FileOptions& files, ConvertedFile& done)
-{
-    COTAN_TRY(chosen, chooseFormat(map, o.to, o.swizzle, o.dither, out, *o.budget, files));
-    done.compress = chosen->compress;
-    done.tried = chosen->tried;
-    done.to = storedConvention(chosen->code, o.to);
-    if (chosen->code != TexelCode::rgba8)
-        return writeTexture(out, map, stored, chosen->code, o, done);
-    RecodeCounts counts;
-    Image pixels = recode(map, {.from = stored, .to = o.to, .dither = o.dither}, counts);
-    pixels.frame = map.frame;
-    return writeTexture(out, pixels, o.to, chosen->code, o, done);
-}
-
-// Converts an image strip by strip to a texture.
-Status convertToTexture(const OpenMap& map, const std::filesystem::path& out, const RecodeSettings& settings,
-                        const TexelCode& code, const ConvertFileOptions& o, const FileOptions& files,
-                        ConvertedFile& done)
+// Converts a map strip by strip to a texture.
+Result<MadeTexture> convertToTexture(const OpenMap& map, const std::filesystem::path& out,
+                                     const RecodeSettings& settings, const TexelCode& code, const ConvertFileOptions& o,
+                                     const Progress& progress, ConvertedFile& done)
 {
     RowReader& in = *map.rows;
-    TextureRows texture(in.width, in.height, code, settings.to,
-                        {.from = settings.to, .to = o.to, .file = out, .mips = o.mips});
-    const int atOnce = texture.rowsAtOnce();
-    CountedSteps steps(files.progress, std::size_t((in.height - 1) / atOnce + 1));
-    for (RecodeSettings here = settings; here.firstRow < in.height; here.firstRow += atOnce) {
-        Image strip = makeImage(in.width, std::min(atOnce, in.height - here.firstRow), in.type, in.name);
+    done.counts = {};
+    CountedSteps steps(progress, std::size_t((in.height - 1) / rowsAtOnce(in.width) + 1));
+    const auto next = [&](int first, int rows) -> Result<Image> {
+        if (first > 0 && !steps.step())
+            return stoppedError();
+        Image strip = makeImage(in.width, rows, in.type, in.name);
         COTAN_CHECK(in.read(strip));
-        map.put(strip, here.firstRow);
+        map.put(strip, first);
+        RecodeSettings here = settings;
+        here.firstRow = first;
         RecodeCounts found;
-        const Image rows = recode(strip, here, found);
-        COTAN_CHECK(texture.add(rows, code == TexelCode::rgba8 ? nullptr : &rows));
+        Image converted = recode(strip, here, found);
         done.counts.invalid += found.invalid;
         done.counts.clamped += found.clamped;
-        if (!steps.step())
-            return stoppedError();
-    }
+        return converted;
+    };
+    COTAN_TRY(made, textureOf(in.width, in.height, next, settings.to, code, out, o, done.frame));
+    if (!steps.step())
+        return stoppedError();
+    done.notes.clear();
     addNote(map.note(), done.notes);
-    return write(out, texture.finish(done.frame), done);
+    return made;
 }
 
 // Image::frame of the result: in tangent space that of the mesh, else that of the map; in object space none.
@@ -186,24 +173,47 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
     ConvertedFile done{
         in.width,  in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention, storedConvention(*code, o.to),
         o.compress};
-    if (!o.mesh && !o.budget) {
-        const Status streamed = isTextureFile(out) ? convertToTexture(*opened, out, settings, *code, o, files, done)
-                                                   : convertByRows(*opened, out, settings, code->swizzle, files, done);
+    if (!o.mesh && !isTextureFile(out)) {
+        const Status streamed = convertByRows(*opened, out, settings, code->swizzle, files, done);
         return streamed ? Result<ConvertedFile>(done) : streamed.error();
     }
-    COTAN_TRY(converted,
-              o.mesh ? convertByMesh(map, *o.mesh, settings, files, done) : convertWhole(map, settings, files, done));
-    converted->frame = done.frame;
+    Image whole; // with a mesh
+    if (o.mesh) {
+        COTAN_TRY(converted, convertByMesh(map, *o.mesh, settings, files, done));
+        whole = *std::move(converted);
+        whole.frame = done.frame;
+    }
+    if (!isTextureFile(out)) {
+        swizzle(whole, code->swizzle);
+        const Status written = writeMap(out, whole, done.bits);
+        return written ? Result<ConvertedFile>(done) : written.error();
+    }
+    const MakeTexture make = [&](const TexelCode& as, std::size_t number, std::size_t count) -> Result<MadeTexture> {
+        if (o.mesh)
+            return textureOf(
+                in.width, in.height, [&](int first, int rows) { return rowsOf(whole, first, rows); }, to, as, out, o,
+                done.frame);
+        const Progress progress = partOf(files.progress, number, count);
+        if (number == 0)
+            return convertToTexture(*opened, out, settings, as, o, progress, done);
+        COTAN_TRY(again, openMap(map, o.from, "options.from", files.limits));
+        return convertToTexture(*again, out, settings, as, o, progress, done);
+    };
+    ChosenFormat chosen{o.compress, *code, {}, {}};
     if (o.budget) {
-        const Status written = writeChosen(out, *converted, to, o, files, done);
-        return written ? Result<ConvertedFile>(done) : written.error();
+        COTAN_TRY(within, chooseFormat(o.to, o.swizzle, out, *o.budget, make));
+        chosen = *std::move(within);
+    } else {
+        COTAN_TRY(made, make(*code, 0, 1));
+        chosen.made = *std::move(made);
     }
-    if (isTextureFile(out)) {
-        const Status written = writeTexture(out, *converted, to, *code, o, done);
-        return written ? Result<ConvertedFile>(done) : written.error();
-    }
-    swizzle(*converted, code->swizzle);
-    const Status written = writeMap(out, *converted, done.bits);
+    done.compress = chosen.compress;
+    done.tried = chosen.tried;
+    done.to = storedConvention(chosen.code, o.to);
+    if (chosen.code != TexelCode::rgba8)
+        done.cost = chosen.made.cost;
+    const std::vector<std::byte>& bytes = chosen.made.bytes;
+    const Status written = writeFileWhole(out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     return written ? Result<ConvertedFile>(done) : written.error();
 }
 

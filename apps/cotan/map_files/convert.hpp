@@ -49,10 +49,11 @@ struct ConvertedFile {
     std::vector<std::string> notes = {};        // what contradicts a stated convention, one line each
 };
 
-// Converts a file. With a mesh, or to .dds or .ktx2, the map is held in memory. Errors: ErrorKind::usage for options
-// that contradict each other, with messages that begin with "options.mesh: ", "options.strength: ", "options.bits: ",
-// "options.compress: ", "options.swizzle: ", "options.from: " or "options.to: "; as openRows, createRows and loadScene;
-// ErrorKind::input if the mesh covers no texel; ErrorKind::limit as chooseFormat; ErrorKind::stopped.
+// Converts a file. With a mesh, the map is held in memory; of .dds and .ktx2, the blocks. Errors: ErrorKind::usage for
+// options that contradict each other, with messages that begin with "options.mesh: ", "options.strength: ",
+// "options.bits: ", "options.compress: ", "options.swizzle: ", "options.from: " or "options.to: "; as openRows,
+// createRows and loadScene; ErrorKind::input if the mesh covers no texel; ErrorKind::limit as chooseFormat;
+// ErrorKind::stopped.
 Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
                                   const ConvertFileOptions& options, const FileOptions& files = {});
 

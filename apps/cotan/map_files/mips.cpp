@@ -1,5 +1,6 @@
 #include "map_files/mips.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -7,7 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/try.hpp"
-#include "maps/textures/texel_code.hpp"
+#include "maps/blocks/block.hpp"
+#include "maps/textures/make_texture.hpp"
 #include "placed_images.hpp"
 
 namespace cotan::app {
@@ -16,16 +18,14 @@ using namespace maps;
 
 namespace {
 
-// The normals of a level with its roughness in alpha.
-Result<TextureLevel> levelWithRoughness(const MipLevel& level, const TexelCode& code, const MipFileOptions& o)
+// Puts the roughness of texels into their alpha.
+void putRoughness(Image& normals, const Image& roughness)
 {
-    Image both = level.normals;
-    for (std::size_t i = 0; i < both.pixelCount(); ++i)
-        if (both.type == PixelType::float32)
-            both.floats()[4 * i + 3] = level.roughness.floats()[4 * i];
+    for (std::size_t i = 0; i < normals.pixelCount(); ++i)
+        if (normals.type == PixelType::float32)
+            normals.floats()[4 * i + 3] = roughness.floats()[4 * i];
         else
-            both.bytes8()[4 * i + 3] = level.roughness.bytes8()[4 * i];
-    return levelOf(both, code, *o.to, o.keepLengths);
+            normals.bytes8()[4 * i + 3] = roughness.bytes8()[4 * i];
 }
 
 std::filesystem::path marked(const std::filesystem::path& file, const std::string& mark)
@@ -33,31 +33,61 @@ std::filesystem::path marked(const std::filesystem::path& file, const std::strin
     return file.parent_path() / (file.stem().string() + mark + file.extension().string());
 }
 
-// Writes one file, or two with blocks that have no channel for the roughness.
-Status writeTextures(const std::filesystem::path& out, const std::vector<MipLevel>& chain, const TexelCode& code,
-                     const MipFileOptions& o)
+std::vector<TextureLevel> levelsOf(std::vector<LevelRows>& rows)
 {
-    std::vector<TextureLevel> normals, roughness;
-    if (code.holdsRoughness()) {
-        for (const MipLevel& level : chain) {
-            COTAN_TRY(both, levelWithRoughness(level, code, o));
-            normals.push_back(*std::move(both));
-        }
-        return writeFileWhole(out, textureBytes(out, code, normals, chain[0].normals.frame));
-    }
+    std::vector<TextureLevel> levels;
+    for (LevelRows& level : rows)
+        levels.push_back(std::move(level.made));
+    return levels;
+}
+
+// Writes one file, or two with blocks that have no channel for the roughness, of a map that is read strip by strip.
+Status writeTextures(const OpenMap& map, const std::filesystem::path& out, const TexelCode& code,
+                     const MipSettings& settings, const MipFileOptions& o, const Progress& progress, MippedFile& done)
+{
+    const bool inAlpha = code.holdsRoughness();
     const std::filesystem::path second = marked(out, "_roughness");
-    if (o.mayWrite)
+    if (!inAlpha && o.mayWrite)
         COTAN_CHECK(o.mayWrite(second));
     const TexelCode grey = o.compress.starts_with("bc")        ? TexelCode::bc4
         : code == TexelCode::rgba8 || code == TexelCode::uastc ? code.kind
                                                                : TexelCode::eacR11;
-    for (const MipLevel& level : chain) {
-        COTAN_TRY(made, levelOf(level.normals, code, *o.to));
-        normals.push_back(*std::move(made));
-        roughness.push_back(greyLevel(level.roughness, grey));
+    RowReader& in = *map.rows;
+    MipRows mips(in.width, in.height, settings, MipRows::roughness);
+    std::vector<LevelRows> normals, roughness;
+    for (std::size_t i = 0; i < mips.levels(); ++i)
+        normals.emplace_back(mips.size(i)), roughness.emplace_back(mips.size(i));
+    Status state = Done{};
+    const auto take = [&](std::size_t i, Image rows, const Image& rough) {
+        if (!state)
+            return;
+        if (inAlpha)
+            putRoughness(rows, rough);
+        state = normals[i].add(rows,
+                               [&](const Image& next) { return levelOf(next, code, *o.to, inAlpha && o.keepLengths); });
+        if (state && !inAlpha)
+            state =
+                roughness[i].add(rough, [&](const Image& next) { return Result<TextureLevel>(greyLevel(next, grey)); });
+    };
+    const int atOnce = rowsAtOnce(in.width);
+    CountedSteps steps(progress, std::size_t((in.height - 1) / atOnce + 1));
+    for (int y = 0; y < in.height; y += atOnce) {
+        Image strip = makeImage(in.width, std::min(atOnce, in.height - y), in.type, in.name);
+        COTAN_CHECK(in.read(strip));
+        map.put(strip, y);
+        mips.add(strip, take);
+        COTAN_CHECK(state);
+        if (!steps.step())
+            return stoppedError();
     }
-    COTAN_CHECK(writeFileWhole(out, textureBytes(out, code, normals, chain[0].normals.frame)));
-    return writeFileWhole(second, textureBytes(second, grey, roughness));
+    addNote(map.note(), done.notes);
+    for (std::size_t i = 0; i < mips.levels(); ++i) {
+        const auto [width, height] = mips.size(i);
+        const auto [length, rough] = mips.means(i);
+        done.levels.push_back({width, height, length, rough});
+    }
+    COTAN_CHECK(writeFileWhole(out, textureBytes(out, code, levelsOf(normals), in.frame)));
+    return inAlpha ? Status(Done{}) : writeFileWhole(second, textureBytes(second, grey, levelsOf(roughness)));
 }
 
 std::filesystem::path numbered(const std::filesystem::path& file, const char* mark, std::size_t level)
@@ -108,6 +138,15 @@ Status checkLengths(const Result<TexelCode>& code, const MipFileOptions& o)
 
 } // namespace
 
+TextureLevel greyLevel(const Image& image, const TexelCode& code)
+{
+    return {image.width, image.height,
+            code == TexelCode::rgba8       ? image.data
+                : code == TexelCode::uastc ? encodeUastc(image, {127.5f, 127.5f}, true)
+                : code == TexelCode::bc4   ? encodeBc4(image)
+                                           : encodeEacR11(image)};
+}
+
 std::filesystem::path firstMipFile(const std::filesystem::path& out)
 {
     return isTextureFile(out) ? out : numbered(out, "", 0);
@@ -119,14 +158,26 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
     MipFileOptions o = requested;
     if (o.to) // fails before the work
         COTAN_CHECK(checkLengths(codeFor(o.compress, o.bits, *o.to, out, o.swizzle), o));
-    COTAN_TRY(read, readMap(file, o.from, "options.from", files.limits));
-    const Image* const map = &read->image;
-    const Convention from = read->convention, to = o.to.value_or(from);
+    COTAN_TRY(opened, openMap(file, o.from, "options.from", files.limits));
+    const Convention from = opened->convention, to = o.to.value_or(from);
     o.to = to;
     COTAN_TRY(code, codeFor(o.compress, o.bits, to, out, o.swizzle));
     COTAN_CHECK(checkLengths(code, o));
-    COTAN_TRY(bits, bitsOfMips(*code, map->type, out, o));
-    // 32 bytes of moments for a quarter of the texels, and normals and roughness of all levels.
+    COTAN_TRY(bits, bitsOfMips(*code, opened->rows->type, out, o));
+    const MipSettings settings{.from = from,
+                               .to = codeConvention(*code, to),
+                               .keepLengths = o.keepLengths,
+                               .model = o.model,
+                               .roughness = o.roughness,
+                               .type = bits->type};
+    MippedFile done{from, to, {}};
+    if (isTextureFile(out)) {
+        const Status written = writeTextures(*opened, out, *code, settings, o, files.progress, done);
+        return written ? Result<MippedFile>(done) : written.error();
+    }
+    COTAN_TRY(read, readMap(file, o.from, "options.from", files.limits));
+    const Image* const map = &read->image;
+    // Normals and roughness of all levels.
     const std::size_t work = map->pixelCount() * (8 + 11 * bytesPerComponent(bits->type));
     const std::size_t limit = 3 * workBudget(file, files.limits);
     if (work > limit)
@@ -136,25 +187,15 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
     CountedSteps steps(files.progress, 3); // read, filter, write
     if (!steps.step())
         return stoppedError();
-    auto chain = mipChain(*map,
-                          {.from = from,
-                           .to = codeConvention(*code, to),
-                           .keepLengths = o.keepLengths,
-                           .model = o.model,
-                           .roughness = o.roughness,
-                           .type = bits->type});
+    auto chain = mipChain(*map, settings);
     for (MipLevel& level : chain) {
         level.normals.frame = map->frame;
-        if (!isTextureFile(out))
-            swizzle(level.normals, code->swizzle);
+        swizzle(level.normals, code->swizzle);
     }
     if (!steps.step())
         return stoppedError();
-    if (Status written = isTextureFile(out) ? writeTextures(out, chain, *code, o) : writeChain(out, chain, *bits, o);
-        !written)
-        return written.error();
+    COTAN_CHECK(writeChain(out, chain, *bits, o));
     steps.step();
-    MippedFile done{from, to, {}};
     addNote(read->note, done.notes);
     for (const MipLevel& level : chain)
         done.levels.push_back({level.normals.width, level.normals.height, level.meanLength, level.meanRoughness});

@@ -7,6 +7,7 @@
 
 #include "cotan/maps.hpp"
 #include "map_files/map_file.hpp"
+#include "maps/textures/texel_code.hpp"
 
 namespace cotan::app {
 
@@ -37,12 +38,15 @@ struct MippedFile {
 
 // Writes all levels and the roughness that they need: .dds and .ktx2 hold both, the roughness in alpha; where
 // alpha is not free it is in OUT_roughness.dds, as pixels, BC4 or EAC R11. OUT.png and other formats become OUT_0.png,
-// OUT_roughness_0.png, OUT_1.png etc. The map and its levels are held in memory. Errors: as readImage and writeImage;
-// ErrorKind::input: the levels take more than three times workBudget(); ErrorKind::usage: "options.bits: ",
-// "options.compress: ", "options.swizzle: ", "options.keepLengths: ", "options.to: "; ErrorKind::stopped, before
-// anything is written.
+// OUT_roughness_0.png, OUT_1.png etc. The blocks of .dds and .ktx2 are held in memory, of other formats the map and its
+// levels. Errors: as readImage and writeImage; ErrorKind::input: the levels take more than three times workBudget();
+// ErrorKind::usage: "options.bits: ", "options.compress: ", "options.swizzle: ", "options.keepLengths: ", "options.to:
+// "; ErrorKind::stopped, before anything is written.
 Result<MippedFile> writeMips(const std::filesystem::path& map, const std::filesystem::path& out,
                              const MipFileOptions& options, const FileOptions& files = {});
+
+// Grey as a level of one channel: bc4, eacR11 or uastc of float32, or an image of unorm8 for rgba8.
+maps::TextureLevel greyLevel(const Image& image, const maps::TexelCode& code);
 
 // The first file that writeMips writes.
 std::filesystem::path firstMipFile(const std::filesystem::path& out);

@@ -41,6 +41,7 @@ Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale, boo
         t.opaque = t.opaque && texel[3] >= 1;
     }
     t.aim = t.codes;
+    t.mask.fill(kZero + 1);
     t.weight.fill(kZero + 1);
     const float length = std::sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
     for (std::size_t i = 0; i < 4 && t.directions && length > 1; ++i) {
@@ -83,11 +84,12 @@ Scatter scatterOf(const Moments& m)
 // The error that rounding of values to n levels adds is as if each were off by a part of 1 / (n - 1).
 float fineness(int indexBits) { return 1 / float(((1 << indexBits) - 1) * ((1 << indexBits) - 1)); }
 
-// What rounding of the ends adds. The choice of lengths reduces it.
+// What rounding of the ends adds: a twelfth of a squared step for each of two ends and of the two axes across a
+// direction, which texels between the ends take two thirds of.
 float roundingOf(int bits)
 {
     const float step = float(256 >> std::min(8, bits));
-    return 16 * step * step / 24;
+    return 16 * step * step / 8;
 }
 
 // For each texel, whether it is in the second subset of two, or in the second and third of three: four partitions at
@@ -174,10 +176,20 @@ Points pointsOf(const Texels& t)
     return p;
 }
 
+// The candidates with the least estimates, in their order.
 struct Candidates {
-    std::array<Candidate, 1 + 64 + 64 + 16> list;
-    std::size_t count = 0;
-    void add(const Candidate& c) { list[count++] = c; }
+    std::array<Candidate, 6> list;
+    std::size_t tries, count = 0;
+
+    void add(const Candidate& c)
+    {
+        if (count == tries && !(c.estimate < list[count - 1].estimate))
+            return;
+        std::size_t at = count < tries ? count++ : count - 1;
+        for (; at > 0 && c.estimate < list[at - 1].estimate; --at)
+            list[at] = list[at - 1];
+        list[at] = c;
+    }
 };
 
 // Modes 0, 1, 3 and 6 or, if alpha varies, 6 and 7.
@@ -281,12 +293,26 @@ LineCode lineCode(const Candidate& c, const Texels& t)
             m.alphaBits > 0 && !t.opaque ? 4 : 3};
 }
 
-Values maskOf(const Candidate& c, int subset)
+// The texels of a subset.
+Texels texelsOf(const Texels& t, const Candidate& c, int subset)
 {
-    Values mask;
+    const int subsets = kModes[std::size_t(c.mode)].subsets;
+    Texels part = t;
+    part.mask.fill(kZero);
+    std::size_t to = 0;
     for (std::size_t i = 0; i < 16; ++i)
-        at(mask, i) = subsetOf(kModes[std::size_t(c.mode)].subsets, c.partition, int(i)) == subset;
-    return mask;
+        if (subsetOf(subsets, c.partition, int(i)) == subset) {
+            for (std::size_t k = 0; k < 3; ++k)
+                at(part.n[k], to) = at(t.n[k], i);
+            for (std::size_t k = 0; k < 4; ++k) {
+                at(part.aim[k], to) = at(t.aim[k], i);
+                at(part.codes[k], to) = at(t.codes[k], i);
+            }
+            at(part.weight, to) = at(t.weight, i);
+            at(part.mask, to++) = 1;
+        }
+    part.count = to <= 8 ? 8 : 16;
+    return part;
 }
 
 // Stops when the error reaches `limit`.
@@ -301,7 +327,7 @@ Result fitted(const Texels& t, const std::array<PlanePoints, 3>& points, const C
     }
     r.error = 0;
     for (int s = 0; s < kModes[std::size_t(c.mode)].subsets && r.error < limit; ++s) {
-        r.lines[std::size_t(s)] = fitLine(t, lineCode(c, t), maskOf(c, s), limit);
+        r.lines[std::size_t(s)] = fitLine(texelsOf(t, c, s), lineCode(c, t), limit - r.error);
         r.error += r.lines[std::size_t(s)].error;
     }
     if (hasPlanes(c)) {
@@ -323,7 +349,7 @@ void refine(Result& r, const Texels& t)
     for (int s = 0; s < kModes[std::size_t(c.mode)].subsets; ++s) {
         Fit& line = r.lines[std::size_t(s)];
         r.error -= line.error;
-        refineLine(line, t, lineCode(c, t), maskOf(c, s), kRefinements);
+        refineLine(line, texelsOf(t, c, s), lineCode(c, t), kRefinements);
         r.error += line.error;
     }
 }
@@ -338,9 +364,10 @@ Block blockOf(const Result& r)
     if (!hasPlanes(c)) {
         for (std::size_t s = 0; s < std::size_t(subsets); ++s)
             b.ends[s] = r.lines[s].ends;
+        std::array<std::size_t, 3> next{};
         for (std::size_t i = 0; i < 16; ++i) {
             const auto s = std::size_t(subsetOf(subsets, c.partition, int(i)));
-            b.indices[i] = int(at(r.lines[s].indices, i));
+            b.indices[i] = int(at(r.lines[s].indices, next[s]++));
         }
         return b;
     }
@@ -363,9 +390,9 @@ void encode(const Texels& t, std::byte* to)
 {
     // Tries with lines and planes each, and how many of the best are refined: one more of each reduces
     // the error by about 1 %.
-    constexpr std::size_t kLineTries = 6, kPlaneTries = 4, kRefined = 2;
+    constexpr std::size_t kLineTries = 4, kPlaneTries = 4, kRefined = 2;
     constexpr float kExact = 0.3f; // 0.06 degrees: no more is tried
-    Candidates lines, planes;
+    Candidates lines{{}, kLineTries}, planes{{}, kPlaneTries};
     addLines(t, lines);
     std::array<PlanePoints, 3> points;
     for (int s = 0; s < kAlpha && t.directions && t.opaque; ++s)
@@ -373,20 +400,13 @@ void encode(const Texels& t, std::byte* to)
     addPlanes(t, points, planes);
 
     std::array<Result, kRefined> best; // from the smallest error
-    const auto tryBest = [&](Candidates& of, std::size_t tries) {
-        const std::size_t count = std::min(of.count, tries);
-        std::partial_sort(of.list.begin(), of.list.begin() + std::ptrdiff_t(count),
-                          of.list.begin() + std::ptrdiff_t(of.count),
-                          [](const Candidate& a, const Candidate& b) { return a.estimate < b.estimate; });
-        for (std::size_t k = 0; k < count && best[0].error > kExact; ++k) {
+    for (const Candidates& of : {lines, planes})
+        for (std::size_t k = 0; k < of.count && best[0].error > kExact; ++k) {
             Result r = fitted(t, points, of.list[k], best.back().error);
             for (Result& b : best)
                 if (r.error < b.error)
                     std::swap(r, b);
         }
-    };
-    tryBest(lines, kLineTries);
-    tryBest(planes, kPlaneTries);
     const Result* least = best.data();
     for (Result& r : best) {
         if (least->error > kExact && r.error < 1e29f)

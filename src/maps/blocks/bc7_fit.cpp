@@ -27,84 +27,101 @@ Line decoded(const Ends& ends, const LineCode& code)
 }
 
 // Sum of squared errors. Sets the indices to the nearest levels of the line.
-float errorOf(const Ends& ends, const Texels& t, const LineCode& code, const Values& mask, Values& indices)
+float lineError(const Line& line, const Texels& t, const LineCode& code, Values& indices)
 {
-    const Line line = decoded(ends, code);
-    const auto channels = std::size_t(code.channels);
-    const bool angular = t.directions && channels == 3;
-    const float last = float((1 << code.indexBits) - 1);
-    Color step{}, from{};
-    float fromFrom = 0, fromStep = 0, stepStep = 1e-9f;
-    for (std::size_t c = 0; c < channels; ++c) {
-        step[c] = line.to[c] - line.from[c];
-        from[c] = line.from[c] - t.zero;
-        fromFrom += from[c] * from[c];
-        fromStep += from[c] * step[c];
-        stepStep += step[c] * step[c];
-    }
-    Four sum{};
-    for (std::size_t i = 0; i < 4; ++i) {
-        Four position = kZero;
-        if (angular) { // minimises the angle between n and from + position * step
-            Four nFrom = kZero, nStep = kZero;
-            for (std::size_t c = 0; c < 3; ++c) {
-                nFrom += t.n[c][i] * from[c];
-                nStep += t.n[c][i] * step[c];
-            }
-            const Four below = nFrom * stepStep - nStep * fromStep;
-            position = below > 1e-6f ? (nStep * fromFrom - nFrom * fromStep) / below : kZero;
-        } else {
-            for (std::size_t c = 0; c < channels; ++c)
-                position += (t.codes[c][i] - line.from[c]) * step[c];
-            position *= 1 / stepStep;
-        }
-        indices[i] = rounded(minOf(maxOf(position, kZero), kZero + 1) * last);
-        const Four weight = weightOf(indices[i], code.indexBits) * (1.0f / 64);
-        Four here = kZero, along = kZero, square = kZero + 1e-6f;
+    float error = 0;
+    runLanes([&]<class V>() __attribute__((always_inline)) {
+        const V zero{};
+        const auto channels = std::size_t(code.channels);
+        const bool angular = t.directions && channels == 3;
+        const float last = float((1 << code.indexBits) - 1);
+        Color step{}, from{};
+        float fromFrom = 0, fromStep = 0, stepStep = 1e-9f;
         for (std::size_t c = 0; c < channels; ++c) {
-            const Four read = wholeOf(line.from[c] + step[c] * weight);
-            if (c == 3 || !t.directions) {
-                const Four off = read - t.codes[c][i];
-                here += off * off;
-            } else {
-                along += (read - t.zero) * t.n[c][i];
-                square += (read - t.zero) * (read - t.zero);
-            }
+            step[c] = line.to[c] - line.from[c];
+            from[c] = line.from[c] - t.zero;
+            fromFrom += from[c] * from[c];
+            fromStep += from[c] * step[c];
+            stepStep += step[c] * step[c];
         }
-        if (t.directions)
-            here += squaredAngle(along, square);
-        sum += mask[i] * here;
-    }
-    return sumOf(sum);
+        TexelSums<V> sums;
+        for (std::size_t i = 0; i < t.count; i += sums.kWidth) {
+            V position = zero;
+            if (angular) { // minimises the angle between n and from + position * step
+                V nFrom = zero, nStep = zero;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const V n = lanesOf<V>(t.n[c], i);
+                    nFrom += n * from[c];
+                    nStep += n * step[c];
+                }
+                const V below = nFrom * stepStep - nStep * fromStep;
+                position = below > 1e-6f ? (nStep * fromFrom - nFrom * fromStep) / below : zero;
+            } else {
+                for (std::size_t c = 0; c < channels; ++c)
+                    position += (lanesOf<V>(t.codes[c], i) - line.from[c]) * step[c];
+                position *= 1 / stepStep;
+            }
+            const V index = rounded(minOf(maxOf(position, zero), zero + 1) * last);
+            storeLanes(indices, i, index);
+            const V weight = weightOf(index, code.indexBits) * (1.0f / 64);
+            V here = zero, along = zero, square = zero + 1e-6f;
+            std::array<V, 3> read;
+            for (std::size_t c = 0; c < channels; ++c) {
+                const V code8 = wholeOf(line.from[c] + step[c] * weight);
+                if (c == 3 || !t.directions) {
+                    const V off = code8 - lanesOf<V>(t.codes[c], i);
+                    here += off * off;
+                } else {
+                    read[c] = code8 - t.zero;
+                    along += read[c] * lanesOf<V>(t.n[c], i);
+                    square += read[c] * read[c];
+                }
+            }
+            if (t.directions) {
+                const V scale = maxOf(along, zero) / square;
+                V sine = zero;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const V off = read[c] * scale - lanesOf<V>(t.n[c], i);
+                    sine += off * off;
+                }
+                here += sine * (kRadian * kRadian);
+            }
+            sums.add(i, lanesOf<V>(t.mask, i) * here);
+        }
+        error = sums.total();
+    });
+    return error;
 }
 
 // With alpha, lines fit vectors, and only errors are those of directions.
 const std::array<Values, 4>& aimOf(const Texels& t, std::size_t channels) { return channels == 4 ? t.codes : t.aim; }
 
 // The line through the mean along the principal axis, clipped to the range of the texels.
-Line principal(const Texels& t, std::size_t channels, const Values& mask)
+Line principal(const Texels& t, std::size_t channels)
 {
+    const std::size_t groups = t.count / 4;
+    const Values& mask = t.mask;
     const std::array<Values, 4>& aim = aimOf(t, channels);
     Values weights;
     Four all{};
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < groups; ++i)
         all += weights[i] = mask[i] * (channels == 4 ? kZero + 1 : t.weight[i]);
     const float inverse = 1 / sumOf(all);
     Color mean{};
     std::array<Values, 4> off;
     for (std::size_t c = 0; c < channels; ++c) {
         Four sum{};
-        for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t i = 0; i < groups; ++i)
             sum += weights[i] * aim[c][i];
         mean[c] = sumOf(sum) * inverse;
-        for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t i = 0; i < groups; ++i)
             off[c][i] = aim[c][i] - mean[c];
     }
     std::array<Color, 4> covariance{};
     for (std::size_t a = 0; a < channels; ++a)
         for (std::size_t b = a; b < channels; ++b) {
             Four sum{};
-            for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t i = 0; i < groups; ++i)
                 sum += weights[i] * off[a][i] * off[b][i];
             covariance[a][b] = covariance[b][a] = sumOf(sum);
         }
@@ -132,7 +149,7 @@ Line principal(const Texels& t, std::size_t channels, const Values& mask)
     if (!(square > 0))
         return line;
     Four first = kZero + 1e9f, last = kZero - 1e9f;
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < groups; ++i) {
         Four position = kZero;
         for (std::size_t c = 0; c < channels; ++c)
             position += off[c][i] * (axis[c] / square);
@@ -147,9 +164,8 @@ Line principal(const Texels& t, std::size_t channels, const Values& mask)
     return line;
 }
 
-// An end as stored. Where only directions count, the one of several lengths whose direction is nearest. Returns the
-// squared error.
-float storeEnd(const Color& end, const Texels& t, const LineCode& code, int low, std::array<int, 4>& stored)
+// An end as stored. Where only directions count, the one of several lengths whose direction is nearest.
+void storeEnd(const Color& end, const Texels& t, const LineCode& code, int low, std::array<int, 4>& stored)
 {
     if (code.channels == 4)
         stored[3] = nearestStored(kZero + end[3], code.alphaBits, code.lowBits, low)[0];
@@ -163,50 +179,52 @@ float storeEnd(const Color& end, const Texels& t, const LineCode& code, int low,
         square += v[c] * v[c];
         growth = std::min(growth, growthOf(v[c], t.zero));
     }
-    constexpr int kLengths = 16;
-    const float longest = anyLength ? growth : 1;
-    // A step of the longest channel or, with few bits, as much as leaves enough length.
-    const float by = anyLength ? longest * std::min(float(1 << (8 - code.colorBits + code.lowBits)) / 127, 0.04f) : 0;
-    Four scale = Four{0, 1, 2, 3} * -by + longest, least = kZero + 1e30f;
-    std::array<FourInts, 3> best{};
-    for (int k = 0; k < (anyLength ? kLengths : 1); k += 4, scale -= 4 * by) {
-        std::array<FourInts, 3> here;
-        std::array<Four, 3> read;
-        Four along = kZero, readSquare = kZero, error = kZero;
-        for (std::size_t c = 0; c < 3; ++c) {
-            here[c] = nearestStored(t.zero + v[c] * scale, code.colorBits, code.lowBits, low);
-            read[c] = __builtin_convertvector(expanded(here[c], code.colorBits), Four) - t.zero;
-            along += read[c] * v[c];
-            readSquare += read[c] * read[c];
-        }
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Four off = anyLength ? read[c] - along / square * v[c] : read[c] - v[c];
-            error += off * off;
-        }
-        if (anyLength)
-            error = error / maxOf(readSquare, kZero + 1);
-        const FourInts better = error < least;
-        least = better ? error : least;
+    if (!anyLength) {
         for (std::size_t c = 0; c < 3; ++c)
-            best[c] = better ? here[c] : best[c];
+            stored[c] = nearestStored(kZero + end[c], code.colorBits, code.lowBits, low)[0];
+        return;
     }
-    int lane = 0;
-    for (int k = 1; k < 4; ++k)
-        lane = least[k] < least[lane] ? k : lane;
+    // A step of the longest channel or, with few bits, as much as leaves enough length.
+    const float by = growth * std::min(float(1 << (8 - code.colorBits + code.lowBits)) / 127, 0.04f);
+    constexpr std::size_t kLengths = 16;
+    std::array<float, kLengths> errors;
+    std::array<std::array<std::int32_t, kLengths>, 3> ends;
+    runLanes([&]<class V>() __attribute__((always_inline)) {
+        constexpr std::size_t kWidth = sizeof(V) / sizeof(float);
+        for (std::size_t first = 0; first < kLengths; first += kWidth) {
+            std::array<V, 3> read;
+            V scale, along{}, readSquare{}, error{};
+            for (std::size_t k = 0; k < kWidth; ++k)
+                scale[k] = growth - float(first + k) * by;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto here = nearestStored(t.zero + v[c] * scale, code.colorBits, code.lowBits, low);
+                std::memcpy(&ends[c][first], &here, sizeof here);
+                read[c] = __builtin_convertvector(expanded(here, code.colorBits), V) - t.zero;
+                along += read[c] * v[c];
+                readSquare += read[c] * read[c];
+            }
+            for (std::size_t c = 0; c < 3; ++c) {
+                const V off = read[c] - along * (1 / square) * v[c];
+                error += off * off;
+            }
+            error /= maxOf(readSquare, V{} + 1);
+            std::memcpy(&errors[first], &error, sizeof error);
+        }
+    });
+    const auto least = std::size_t(std::min_element(errors.begin(), errors.end()) - errors.begin());
     for (std::size_t c = 0; c < 3; ++c)
-        stored[c] = best[c][lane];
-    return least[lane];
+        stored[c] = ends[c][least];
 }
 
-void offer(Fit& fit, const Ends& ends, const Texels& t, const LineCode& code, const Values& mask)
+void offer(Fit& fit, const Ends& ends, const Texels& t, const LineCode& code)
 {
-    Values indices;
-    if (const float error = errorOf(ends, t, code, mask, indices); error < fit.error)
+    Values indices{};
+    if (const float error = lineError(decoded(ends, code), t, code, indices); error < fit.error)
         fit = {ends, indices, error};
 }
 
-// Offers the ends as stored, with all choices of lowest bits.
-void offerStored(Fit& fit, const Line& line, const Texels& t, const LineCode& code, const Values& mask)
+// Offers the ends as stored, with all choices of lowest bits, unless the first has three times the error `limit`.
+void offerStored(Fit& fit, const Line& line, const Texels& t, const LineCode& code, float limit)
 {
     std::array<Ends, 2> ends{};                                                                 // by lowest bit
     const std::size_t first = code.lowBits && code.channels == 3 && code.alphaBits > 0 ? 1 : 0; // 255 is odd
@@ -214,28 +232,30 @@ void offerStored(Fit& fit, const Line& line, const Texels& t, const LineCode& co
     for (std::size_t low = first; low < lows; ++low) {
         storeEnd(line.from, t, code, int(low), ends[low][0]);
         storeEnd(line.to, t, code, int(low), ends[low][1]);
+        offer(fit, ends[low], t, code);
+        if (fit.error > 3 * limit)
+            return;
     }
-    for (std::size_t a = first; a < lows; ++a)
-        for (std::size_t b = code.oneLowBit ? a : first; b < (code.oneLowBit ? a + 1 : lows); ++b)
-            offer(fit, {ends[a][0], ends[b][1]}, t, code, mask);
+    for (std::size_t a = first; a < lows && lows > first + 1 && !code.oneLowBit; ++a)
+        offer(fit, {ends[a][0], ends[1 - a][1]}, t, code);
 }
 
 } // namespace
 
-Fit fitLine(const Texels& t, const LineCode& code, const Values& mask, float limit)
+Fit fitLine(const Texels& t, const LineCode& code, float limit)
 {
     const auto channels = std::size_t(code.channels);
-    Line line = principal(t, channels, mask);
+    Line line = principal(t, channels);
     Values weights;
     for (std::size_t i = 0; i < 4; ++i)
-        weights[i] = mask[i] * (channels == 4 ? kZero + 1 : t.weight[i]);
+        weights[i] = t.mask[i] * (channels == 4 ? kZero + 1 : t.weight[i]);
     Fit best;
     for (int round = 0; round < kRounds; ++round) {
         Fit here;
-        offerStored(here, line, t, code, mask);
+        offerStored(here, line, t, code, limit);
         if (here.error < best.error)
             best = here;
-        if (best.error > limit)
+        if (best.error > kImproved * limit)
             break;
         const LeastSquares fit(weights, here.indices, code.indexBits);
         if (!fit.solvable())
@@ -246,7 +266,7 @@ Fit fitLine(const Texels& t, const LineCode& code, const Values& mask, float lim
     return best;
 }
 
-void refineLine(Fit& fit, const Texels& t, const LineCode& code, const Values& mask, int rounds)
+void refineLine(Fit& fit, const Texels& t, const LineCode& code, int rounds)
 {
     const int step = code.lowBits ? 2 : 1;
     for (int round = 0; round < rounds; ++round) {
@@ -257,7 +277,7 @@ void refineLine(Fit& fit, const Texels& t, const LineCode& code, const Values& m
                     Ends to = fit.ends;
                     to[e][c] += by;
                     if (to[e][c] >= 0 && to[e][c] < 1 << (c < 3 ? code.colorBits : code.alphaBits))
-                        offer(fit, to, t, code, mask);
+                        offer(fit, to, t, code);
                 }
         if (!(fit.error < before))
             break;

@@ -9,12 +9,14 @@
 
 namespace cotan::maps::bc7 {
 
-// The texels of a block.
+// The texels of a block or of a subset, in their order.
 struct Texels {
     std::array<Values, 4> codes; // to be decoded, 0 to 255
     std::array<Values, 3> n;     // unit normals
     std::array<Values, 4> aim;   // where a line should lie: vectors whose lengths do not count are scaled on to a plane
     Values weight;               // of the squared errors of `aim`
+    Values mask;                 // 1; 0 beyond the texels of a subset
+    std::size_t count = 16;      // of texels, a multiple of 8: more are not looked at
     float zero = 128;            // the code of 0
     bool opaque = true;          // alpha is 255 in all texels
     bool directions = true;      // only directions count, not lengths
@@ -37,12 +39,12 @@ struct Fit {
     float error = 1e30f;
 };
 
-// Fits a line to the texels whose mask is 1; the others have 0. error: the sum of squared errors, in codes; angles are
-// in 127ths of a radian. limit: of the error, beyond which a first fit is not improved.
-Fit fitLine(const Texels& t, const LineCode& code, const Values& mask, float limit);
+// Fits a line to the texels. error: the sum of squared errors, in codes; angles are
+// in 127ths of a radian. limit: of the error; a first fit near it is not improved.
+Fit fitLine(const Texels& t, const LineCode& code, float limit);
 
 // Changes each value of the ends by one step while that reduces the error, in at most `rounds` rounds.
-void refineLine(Fit& fit, const Texels& t, const LineCode& code, const Values& mask, int rounds);
+void refineLine(Fit& fit, const Texels& t, const LineCode& code, int rounds);
 
 // Two channels on a line, and one by itself, which the rotation exchanges with alpha.
 struct PlanesCode {

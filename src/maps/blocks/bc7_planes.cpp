@@ -13,33 +13,48 @@ namespace {
 // Sum of squared angles. Chooses for each texel the pair of indices with the smallest.
 float planesError(const Ends& ends, const Texels& t, const PlanesCode& code, Values& indices, Values& scalarIndices)
 {
-    const auto s = std::size_t(code.scalar), u = (s + 1) % 3, v = (s + 2) % 3;
     const auto end = [&](std::size_t e, std::size_t c) {
         return float(expanded(ends[e][c], c < 3 ? code.colorBits : code.scalarBits));
     };
-    const float low = end(0, 3), step = end(1, 3) - low, last = float((1 << code.scalarIndexBits) - 1);
-    const float inverse = step != 0 ? last / step : 0, toWeight = 64 / last;
-    Values least;
-    least.fill(kZero + 1e30f);
-    for (int k = 0; k < 1 << code.lineIndexBits; ++k) {
-        const float weight = weightOf(kZero + float(k), code.lineIndexBits)[0] * (1.0f / 64);
-        const auto level = [&](std::size_t c) {
-            return float(int(end(0, c) + (end(1, c) - end(0, c)) * weight + 0.5f)) - t.zero;
-        };
-        const float lineU = level(u), lineV = level(v), square = lineU * lineU + lineV * lineV;
-        for (std::size_t i = 0; i < 4; ++i) {
-            const Four along = t.n[u][i] * lineU + t.n[v][i] * lineV;
-            const Four nearest = t.n[s][i] * square / maxOf(along, kZero + 1e-3f); // has the smallest angle
-            const Four index = rounded(minOf(maxOf((nearest + (t.zero - low)) * inverse, kZero), kZero + last));
-            const Four scalar = wholeOf(low + step * (rounded(index * toWeight) * (1.0f / 64))) - t.zero;
-            const Four error = squaredAngle(along + t.n[s][i] * scalar, scalar * scalar + (square + 1e-6f));
-            const FourInts better = error < least[i];
-            least[i] = better ? error : least[i];
-            indices[i] = better ? kZero + float(k) : indices[i];
-            scalarIndices[i] = better ? index : scalarIndices[i];
+    float error = 0;
+    runLanes([&]<class V>() __attribute__((always_inline)) {
+        const V zero{};
+        const auto s = std::size_t(code.scalar), u = (s + 1) % 3, v = (s + 2) % 3;
+        const float low = end(0, 3), step = end(1, 3) - low, last = float((1 << code.scalarIndexBits) - 1);
+        const float inverse = step != 0 ? last / step : 0, toWeight = 64 / last;
+        const int levels = 1 << code.lineIndexBits;
+        std::array<float, 8> lineU, lineV;
+        for (int k = 0; k < levels; ++k) {
+            const float weight = weightOf(kZero + float(k), code.lineIndexBits)[0] * (1.0f / 64);
+            const auto level = [&](std::size_t c) {
+                return float(int(end(0, c) + (end(1, c) - end(0, c)) * weight + 0.5f)) - t.zero;
+            };
+            lineU[std::size_t(k)] = level(u);
+            lineV[std::size_t(k)] = level(v);
         }
-    }
-    return sumOf((least[0] + least[2]) + (least[1] + least[3]));
+        TexelSums<V> sums;
+        for (std::size_t i = 0; i < 16; i += sums.kWidth) {
+            const V ns = lanesOf<V>(t.n[s], i), nu = lanesOf<V>(t.n[u], i), nv = lanesOf<V>(t.n[v], i);
+            V least = zero + 1e30f, best = zero, bestScalar = zero;
+            for (int k = 0; k < levels; ++k) {
+                const float atU = lineU[std::size_t(k)], atV = lineV[std::size_t(k)], square = atU * atU + atV * atV;
+                const V along = nu * atU + nv * atV;
+                const V nearest = ns * square / maxOf(along, zero + 1e-3f); // has the smallest angle
+                const V index = rounded(minOf(maxOf((nearest + (t.zero - low)) * inverse, zero), zero + last));
+                const V scalar = wholeOf(low + step * (rounded(index * toWeight) * (1.0f / 64))) - t.zero;
+                const V here = squaredAngle(along + ns * scalar, scalar * scalar + (square + 1e-6f));
+                const auto better = here < least;
+                least = better ? here : least;
+                best = better ? zero + float(k) : best;
+                bestScalar = better ? index : bestScalar;
+            }
+            sums.add(i, least);
+            storeLanes(indices, i, best);
+            storeLanes(scalarIndices, i, bestScalar);
+        }
+        error = sums.total();
+    });
+    return error;
 }
 
 void offerPlanes(PlanesFit& fit, const Ends& ends, const Texels& t, const PlanesCode& code)

@@ -7,7 +7,8 @@
 
 namespace cotan::maps::bc7 {
 
-inline constexpr int kRounds = 2; // of least squares
+inline constexpr int kRounds = 2;        // of least squares
+inline constexpr float kImproved = 0.7f; // of a limit: first fits with more error are not improved
 
 inline constexpr float kRadian = 127; // in codes
 
@@ -18,34 +19,52 @@ template<class Int> Int expanded(Int stored, int bits)
 }
 
 // Rounds half up, as decoders do; not negative.
-[[gnu::always_inline]] inline Four wholeOf(Four f)
+template<class V> [[gnu::always_inline]] inline V wholeOf(V f)
 {
-    return __builtin_convertvector(__builtin_convertvector(f + 0.5f, FourInts), Four);
+    return __builtin_convertvector(__builtin_convertvector(f + 0.5f, typename LaneInts<V>::Type), V);
 }
 
 // The weight of the second end, in 64ths.
-[[gnu::always_inline]] inline Four weightOf(Four index, int indexBits)
+template<class V> [[gnu::always_inline]] inline V weightOf(V index, int indexBits)
 {
     return rounded(index * (64.0f / float((1 << indexBits) - 1)));
 }
 
 // The stored value nearest to a code; low: its lowest bit, if this is shared.
-[[gnu::always_inline]] inline FourInts nearestStored(Four code, int bits, bool lowBits, int low)
+template<class V>
+[[gnu::always_inline]] inline typename LaneInts<V>::Type nearestStored(V code, int bits, bool lowBits, int low)
 {
+    using Ints = typename LaneInts<V>::Type;
+    const V zero{};
     const float highest = float((1 << bits) - 1);
-    const Four value = minOf(maxOf(code * (highest / 255), kZero), kZero + highest);
+    const V value = minOf(maxOf(code * (highest / 255), zero), zero + highest);
     if (!lowBits)
-        return __builtin_convertvector(value + 0.5f, FourInts);
-    const Four half = minOf(maxOf((value - float(low)) * 0.5f + 0.5f, kZero), kZero + float(1 << (bits - 1)) - 0.5f);
-    return __builtin_convertvector(half, FourInts) * 2 + low;
+        return __builtin_convertvector(value + 0.5f, Ints);
+    const V half = minOf(maxOf((value - float(low)) * 0.5f + 0.5f, zero), zero + float(1 << (bits - 1)) - 0.5f);
+    return __builtin_convertvector(half, Ints) * 2 + low;
 }
 
 // Squared angles, from the dot products of vectors with normals and their squared lengths.
-[[gnu::always_inline]] inline Four squaredAngle(Four along, Four square)
+template<class V> [[gnu::always_inline]] inline V squaredAngle(V along, V square)
 {
-    const Four back = along > 0.0f ? along : -along;
+    const V back = maxOf(along, -along);
     return (kRadian * kRadian) * (1 - along * back / square);
 }
+
+// Sums of texels in an order that does not depend on the number of lanes.
+template<class V> struct TexelSums {
+    static constexpr std::size_t kWidth = sizeof(V) / sizeof(float);
+    std::array<V, 8 / kWidth> sums{};
+
+    [[gnu::always_inline]] void add(std::size_t first, V more) { sums[first / kWidth % sums.size()] += more; }
+    [[gnu::always_inline]] float total() const
+    {
+        Four low, high;
+        std::memcpy(&low, sums.data(), sizeof low);
+        std::memcpy(&high, reinterpret_cast<const std::byte*>(sums.data()) + sizeof low, sizeof high);
+        return sumOf(low + high);
+    }
+};
 
 // Weighted least squares of values on a line whose positions are known. Sums of the weights of both ends.
 struct LeastSquares {

@@ -16,18 +16,18 @@ struct Ends {
     int high = 1, low = 0;
 };
 
-constexpr Four kAll{7, 7, 7, 7};
-
-Four positionOf(Four value, float low, float inverseStep)
+// Rounds to an integer of 0 to `most`.
+template<class V> [[gnu::always_inline]] inline V roundedWithin(V value, float most)
 {
-    return rounded(minOf(maxOf((value - low) * inverseStep, kZero), kAll));
+    return rounded(minOf(maxOf(value, V{}), V{} + most));
 }
+
+Four positionOf(Four value, float low, float inverseStep) { return roundedWithin((value - low) * inverseStep, 7); }
 
 // The position below, at most 6.
 template<class V> [[gnu::always_inline]] inline V positionBelow(V value, float low, float inverseStep)
 {
-    const V zero{}, position = (value - low) * inverseStep, atLeast = position > zero ? position : zero;
-    const V clamped = atLeast < zero + 6 ? atLeast : zero + 6;
+    const V clamped = minOf(maxOf((value - low) * inverseStep, V{}), V{} + 6);
     return __builtin_convertvector(__builtin_convertvector(clamped, typename LaneInts<V>::Type), V);
 }
 
@@ -93,23 +93,11 @@ template<class V> struct EndsLanes {
     }
 };
 
-// Rounds to an integer of 0 to `most`.
-template<class V> [[gnu::always_inline]] inline V roundedWithin(V value, float most)
-{
-    const V zero{};
-    value = value > zero ? value : zero;
-    return rounded(value < zero + most ? value : zero + most);
-}
-
 // Weighted sums of squared errors.
-struct EndsErrors {
-    const Ends& around;
-    const Values& values;
-    const Values& weights;
-    CandidateValues& errors;
-
-    template<class V> [[gnu::always_inline]] void run() const
-    {
+CandidateValues endsErrors(const Ends& around, const Values& values, const Values& weights)
+{
+    CandidateValues errors;
+    runLanes([&]<class V>() __attribute__((always_inline)) {
         for (std::size_t first = 0; first < kCandidates; first += sizeof(V) / sizeof(float)) {
             const EndsLanes<V> ends(around, first);
             const auto& [low, step, inverse] = ends;
@@ -121,17 +109,16 @@ struct EndsErrors {
             }
             std::memcpy(errors.data() + first, &sum, sizeof sum);
         }
-    }
-};
+    });
+    return errors;
+}
 
 // Changes the ends by one while that reduces the error, in at most kRounds rounds.
 void descend(Ends& best, const Values& values, const Values& weights)
 {
     constexpr int kRounds = 3;
     for (int round = 0; round < kRounds; ++round) {
-        CandidateValues errors;
-        runLanes(EndsErrors{best, values, weights, errors});
-        const std::size_t least = leastOf(errors);
+        const std::size_t least = leastOf(endsErrors(best, values, weights));
         if (least == 0)
             return;
         best = moved(best, least);
@@ -166,13 +153,9 @@ void put(const Ends& ends, const Values& positions, std::byte* to)
 }
 
 // Chooses for each texel, of the four pairs of positions around it, the one with the smallest angle.
-struct ChoosePositions {
-    const NormalTexels& t;
-    const Ends &x, &y;
-    Values &positionsX, &positionsY;
-
-    template<class V> [[gnu::always_inline]] void run() const
-    {
+void choosePositions(const NormalTexels& t, const Ends& x, const Ends& y, Values& positionsX, Values& positionsY)
+{
+    runLanes([&]<class V>() __attribute__((always_inline)) {
         const float stepX = float(x.high - x.low) / 7, stepY = float(y.high - y.low) / 7;
         const float lowX = float(x.low), lowY = float(y.low), inverseX = 1 / stepX, inverseY = 1 / stepY;
         for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
@@ -192,8 +175,8 @@ struct ChoosePositions {
             storeLanes(positionsX, first, belowX + (least1 < least0 ? zero + 1 : zero));
             storeLanes(positionsY, first, belowY + (least1 < least0 ? up1 : up0));
         }
-    }
-};
+    });
+}
 
 // Whether errors of x and y interact noticeably: for tilts of about 30 degrees and more.
 bool steep(const NormalTexels& t)
@@ -205,15 +188,13 @@ bool steep(const NormalTexels& t)
     return maxOf(square) > kFrom;
 }
 
-// Sums of squared angles: candidates for the ends of one channel, with given ends of the other one.
-struct AngleErrors {
-    const Ends &around, &other;
-    const Values &values, &slopes;           // of the channel of the candidates: x or y, u or v
-    const Values &otherValues, &otherSlopes; // of the other one
-    CandidateValues& errors;
-
-    template<class V> [[gnu::always_inline]] void run() const
-    {
+// Sums of squared angles: candidates for the ends of one channel, x or y, with given ends of the other one. slopes: u
+// or v of the same channel.
+CandidateValues angleErrors(const Ends& around, const Ends& other, const Values& values, const Values& slopes,
+                            const Values& otherValues, const Values& otherSlopes)
+{
+    CandidateValues errors;
+    runLanes([&]<class V>() __attribute__((always_inline)) {
         const float otherStep = float(other.high - other.low) / 7, otherInverse = 1 / otherStep;
         Values near, far; // errors of the other channel at the positions around a value
         for (std::size_t i = 0; i < 4; ++i) {
@@ -240,17 +221,15 @@ struct AngleErrors {
             }
             std::memcpy(errors.data() + first, &sum, sizeof sum);
         }
-    }
-};
+    });
+    return errors;
+}
 
 // Changes the ends of each channel by one if that reduces the angles.
 void refineTogether(const NormalTexels& t, Ends& x, Ends& y)
 {
-    CandidateValues errors;
-    runLanes(AngleErrors{x, y, t.x, t.u, t.y, t.v, errors});
-    x = moved(x, leastOf(errors));
-    runLanes(AngleErrors{y, x, t.y, t.v, t.x, t.u, errors});
-    y = moved(y, leastOf(errors));
+    x = moved(x, leastOf(angleErrors(x, y, t.x, t.u, t.y, t.v)));
+    y = moved(y, leastOf(angleErrors(y, x, t.y, t.v, t.x, t.u)));
 }
 
 // most: the highest code of an end.
@@ -262,7 +241,7 @@ void encodeNormals(const NormalTexels& t, int most, std::byte* to)
     for (Ends* ends : {&x, &y})
         *ends = {std::min(ends->high, most), std::min(ends->low, most - 1)};
     Values positionsX{}, positionsY{};
-    runLanes(ChoosePositions{t, x, y, positionsX, positionsY});
+    choosePositions(t, x, y, positionsX, positionsY);
     put(x, positionsX, to);
     put(y, positionsY, to + 8);
 }

@@ -96,8 +96,8 @@ template<class V> [[gnu::always_inline]] inline void storeLanes(Values& values, 
     std::memcpy(reinterpret_cast<float*>(values.data()) + first, &lanes, sizeof lanes);
 }
 
-// Calls kernel.template run<V>() with the widest vectors that the processor has. Not on Windows, where GCC does not
-// align variables of 32 bytes on the stack (its bug 54412).
+// Calls kernel.template operator()<V>(), which must be inlined, with the widest vectors that the processor has. Not on
+// Windows, where GCC does not align variables of 32 bytes on the stack (its bug 54412).
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(_WIN32)
 #define COTAN_EIGHT_LANES
 #endif
@@ -110,7 +110,10 @@ inline bool& eightLanes()
     return eight;
 }
 
-template<class Kernel> [[gnu::target("avx2")]] void runEight(const Kernel& kernel) { kernel.template run<Eight>(); }
+template<class Kernel> [[gnu::target("avx2")]] void runEight(const Kernel& kernel)
+{
+    kernel.template operator()<Eight>();
+}
 #endif
 
 template<class Kernel> inline void runLanes(const Kernel& kernel)
@@ -119,7 +122,7 @@ template<class Kernel> inline void runLanes(const Kernel& kernel)
     if (eightLanes())
         return runEight(kernel);
 #endif
-    kernel.template run<Four>();
+    kernel.template operator()<Four>();
 }
 
 // Texel i of a block; outside the map, the nearest texel of its edge.

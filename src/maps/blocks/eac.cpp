@@ -220,70 +220,51 @@ template<class V> struct LevelsAround {
     }
 };
 
-// Encodes a block of normals. Chooses for each texel, of the pairs of levels around x and y, the one with the smallest
-// angle.
-struct EncodeNormals {
-    const Image& map;
-    int left, top;
-    const CodeScale& scale;
-    std::byte* to;
-
-    template<class V> [[gnu::always_inline]] void run() const
-    {
-        const NormalTexels t = normalTexels<V>(map, left, top, scale, kHighestCode);
-        const Levels x = fitLevels<V>(t.x), y = fitLevels<V>(t.y);
-        Values indicesX, indicesY;
-        for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
-            const LevelsAround<V> ofX(x, lanesOf<V>(t.x, first)), ofY(y, lanesOf<V>(t.y, first));
-            const V u = lanesOf<V>(t.u, first), v = lanesOf<V>(t.v, first), zero{}, one = zero + 1;
-            const auto error = [&](V ex, V ey) __attribute__((always_inline))
-            {
-                const V along = u * ex + v * ey;
-                return ex * ex + ey * ey + along * along;
-            };
-            const V e00 = error(ofX.below, ofY.below), e01 = error(ofX.below, ofY.above);
-            const V e10 = error(ofX.above, ofY.below), e11 = error(ofX.above, ofY.above);
-            const V least0 = minOf(e01, e00), least1 = minOf(e11, e10);
-            const V up0 = e01 < e00 ? one : zero, up1 = e11 < e10 ? one : zero;
-            storeLanes(indicesX, first, ofX.index(least1 < least0 ? one : zero));
-            storeLanes(indicesY, first, ofY.index(least1 < least0 ? up1 : up0));
-        }
-        putLevels(x, indicesX, to);
-        putLevels(y, indicesY, to + 8);
-    }
-};
-
-// Encodes red of a block.
-struct EncodeRed {
-    const Image& image;
-    int left, top;
-    std::byte* to;
-
-    template<class V> [[gnu::always_inline]] void run() const
-    {
-        Values red, green, indices;
-        loadCodes<V>(image, left, top, 0, kHighestCode, kHighestCode, red, green);
-        const Levels levels = fitLevels<V>(red);
-        for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
-            const LevelsAround<V> around(levels, lanesOf<V>(red, first));
-            storeLanes(indices, first, around.index(around.above < -around.below ? V{} + 1 : V{}));
-        }
-        putLevels(levels, indices, to);
-    }
-};
-
 } // namespace
 
 std::vector<std::byte> encodeEacRg11(const Image& map, const CodeScale& scale)
 {
     return encodeBlocks(map, 16, [&](int left, int top, std::byte* to) {
-        runLanes(EncodeNormals{map, left, top, scale, to});
+        // Chooses for each texel, of the pairs of levels around x and y, the one with the smallest angle.
+        runLanes([&]<class V>() __attribute__((always_inline)) {
+            const NormalTexels t = normalTexels<V>(map, left, top, scale, kHighestCode);
+            const Levels x = fitLevels<V>(t.x), y = fitLevels<V>(t.y);
+            Values indicesX, indicesY;
+            for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
+                const LevelsAround<V> ofX(x, lanesOf<V>(t.x, first)), ofY(y, lanesOf<V>(t.y, first));
+                const V u = lanesOf<V>(t.u, first), v = lanesOf<V>(t.v, first), zero{}, one = zero + 1;
+                const auto error = [&](V ex, V ey) __attribute__((always_inline))
+                {
+                    const V along = u * ex + v * ey;
+                    return ex * ex + ey * ey + along * along;
+                };
+                const V e00 = error(ofX.below, ofY.below), e01 = error(ofX.below, ofY.above);
+                const V e10 = error(ofX.above, ofY.below), e11 = error(ofX.above, ofY.above);
+                const V least0 = minOf(e01, e00), least1 = minOf(e11, e10);
+                const V up0 = e01 < e00 ? one : zero, up1 = e11 < e10 ? one : zero;
+                storeLanes(indicesX, first, ofX.index(least1 < least0 ? one : zero));
+                storeLanes(indicesY, first, ofY.index(least1 < least0 ? up1 : up0));
+            }
+            putLevels(x, indicesX, to);
+            putLevels(y, indicesY, to + 8);
+        });
     });
 }
 
 std::vector<std::byte> encodeEacR11(const Image& image)
 {
-    return encodeBlocks(image, 8, [&](int left, int top, std::byte* to) { runLanes(EncodeRed{image, left, top, to}); });
+    return encodeBlocks(image, 8, [&](int left, int top, std::byte* to) {
+        runLanes([&]<class V>() __attribute__((always_inline)) {
+            Values red, green, indices;
+            loadCodes<V>(image, left, top, 0, kHighestCode, kHighestCode, red, green);
+            const Levels levels = fitLevels<V>(red);
+            for (std::size_t first = 0; first < 16; first += sizeof(V) / sizeof(float)) {
+                const LevelsAround<V> around(levels, lanesOf<V>(red, first));
+                storeLanes(indices, first, around.index(around.above < -around.below ? V{} + 1 : V{}));
+            }
+            putLevels(levels, indices, to);
+        });
+    });
 }
 
 } // namespace cotan::maps

@@ -18,22 +18,6 @@ constexpr int kWholeBlocks = 120;
 
 PixelType typeOf(const TexelCode& code) { return code == TexelCode::rgba8 ? PixelType::unorm8 : PixelType::float32; }
 
-Image rowsOf(const Image& image, int first, int count)
-{
-    Image rows = makeImage(image.width, count, image.type, image.name);
-    const std::size_t bytes = std::size_t(image.width) * image.bytesPerPixel();
-    std::copy_n(image.data.data() + std::size_t(first) * bytes, std::size_t(count) * bytes, rows.data.data());
-    return rows;
-}
-
-// Calls add(rows) for all rows of an image, as many as the texture takes at once.
-template<class Add> Status addWhole(const TextureRows& texture, const Image& image, const Add& add)
-{
-    for (int y = 0; y < image.height; y += texture.rowsAtOnce())
-        COTAN_CHECK(add(rowsOf(image, y, std::min(texture.rowsAtOnce(), image.height - y))));
-    return Done{};
-}
-
 } // namespace
 
 Result<MadeTexture> makeTexture(Image map, const TextureSettings& s)
@@ -45,68 +29,66 @@ Result<MadeTexture> makeTexture(Image map, const TextureSettings& s)
         unswizzle(map, swizzleOf(map));
     const Convention taken = codeConvention(*code, s.to);
     TextureRows texture(map.width, map.height, *code, taken, s);
-    COTAN_CHECK(addWhole(texture, map, [&](const Image& rows) {
+    for (int y = 0, atOnce = rowsAtOnce(map.width); y < map.height; y += atOnce) {
+        const Image rows = rowsOf(map, y, std::min(atOnce, map.height - y));
         RecodeCounts counts;
-        return texture.add(recode(rows, {.from = s.from, .to = taken, .type = typeOf(*code)}, counts), &rows);
-    }));
+        COTAN_CHECK(texture.add(recode(rows, {.from = s.from, .to = taken, .type = typeOf(*code)}, counts), &rows));
+    }
     return texture.finish(map.frame);
 }
 
 TextureRows::TextureRows(int width, int height, const TexelCode& code, const Convention& taken, TextureSettings s)
     : code_(code), settings_(std::move(s)),
       mips_(width, height, {.from = taken, .to = codeConvention(code, settings_.to), .type = typeOf(code)},
-            code.holdsRoughness())
+            code.holdsRoughness() ? MipRows::averaged : MipRows::one)
 {
-    levels_.push_back({{width, height, {}}});
-    while (settings_.mips && (width > 1 || height > 1)) {
-        width = std::max(1, width / 2);
-        height = std::max(1, height / 2);
-        levels_.push_back({{width, height, {}}});
-    }
+    for (std::size_t i = 0; i < (settings_.mips ? mips_.levels() : 1); ++i)
+        levels_.emplace_back(mips_.size(i));
 }
 
-int TextureRows::rowsAtOnce() const
+int rowsAtOnce(int width)
 {
     constexpr int kTexels = 1 << 20; // enough for all threads
-    return std::max(kTexels / levels_[0].made.width / kWholeBlocks, 1) * kWholeBlocks;
+    return std::max(kTexels / width / kWholeBlocks, 1) * kWholeBlocks;
 }
 
-Status TextureRows::encode(Level& level, const Image& rows, const Image* map)
+Status LevelRows::add(const Image& rows, const std::function<Result<TextureLevel>(const Image&)>& encode)
 {
-    COTAN_TRY(made, levelOf(rows, code_, settings_.to));
-    std::vector<std::byte>& texels = level.made.texels;
-    if (texels.empty())
-        texels.reserve(made->texels.size() * std::size_t((level.made.height - 1) / rows.height + 1));
-    texels.insert(texels.end(), made->texels.begin(), made->texels.end());
-    if (!map)
+    arrived_ += rows.height;
+    waiting_.insert(waiting_.end(), rows.data.begin(), rows.data.end());
+    Image next = makeImage(made.width, 1, rows.type);
+    const int waiting = int(waiting_.size() / next.data.size()), whole = waiting / kWholeBlocks * kWholeBlocks;
+    next.height = arrived_ == made.height ? waiting : whole;
+    if (next.height == 0 || (next.height < waiting && next.pixelCount() < kWholeBlocks * 1024))
         return Done{};
-    const Status compared = addCosts(*map, settings_.from, *made, code_, settings_.to, settings_.file, degrees_);
-    compared_ = bool(compared);
-    return compared || compared.error().kind == ErrorKind::unavailable ? Status(Done{}) : compared;
-}
-
-Status TextureRows::encodeWaiting(Level& level, PixelType type)
-{
-    Image rows = makeImage(level.made.width, 1, type);
-    const int waiting = int(level.waiting.size() / rows.data.size()), whole = waiting / kWholeBlocks * kWholeBlocks;
-    rows.height = level.rows == level.made.height ? waiting : whole;
-    if (rows.height == 0 || (rows.height < waiting && rows.pixelCount() < kWholeBlocks * 1024))
-        return Done{};
-    const auto end = level.waiting.begin() + std::ptrdiff_t(rows.data.size() * std::size_t(rows.height));
-    rows.data.assign(level.waiting.begin(), end);
-    level.waiting.erase(level.waiting.begin(), end);
-    return encode(level, rows, nullptr);
+    const auto end = waiting_.begin() + std::ptrdiff_t(next.data.size() * std::size_t(next.height));
+    next.data.assign(waiting_.begin(), end);
+    waiting_.erase(waiting_.begin(), end);
+    COTAN_TRY(blocks, encode(next));
+    if (made.texels.empty())
+        made.texels.reserve(blocks->texels.size() * std::size_t((made.height - 1) / next.height + 1));
+    made.texels.insert(made.texels.end(), blocks->texels.begin(), blocks->texels.end());
+    return Done{};
 }
 
 Status TextureRows::add(const Image& rows, const Image* map)
 {
-    COTAN_CHECK(encode(levels_[0], rows, map));
+    const auto encode = [&](const Image& next) { return levelOf(next, code_, settings_.to); };
+    COTAN_CHECK(levels_[0].add(rows, [&](const Image& next) -> Result<TextureLevel> {
+        COTAN_TRY(made, encode(next));
+        if (map) {
+            const Status compared =
+                addCosts(*map, settings_.from, *made, code_, settings_.to, settings_.file, degrees_);
+            compared_ = bool(compared);
+            if (!compared && compared.error().kind != ErrorKind::unavailable)
+                return compared.error();
+        }
+        return made;
+    }));
     Status state = Done{};
     if (settings_.mips)
-        mips_.add(rows, [&](std::size_t i, Image made) {
-            levels_[i].rows += made.height;
-            levels_[i].waiting.insert(levels_[i].waiting.end(), made.data.begin(), made.data.end());
-            if (const Status encoded = encodeWaiting(levels_[i], made.type); state && !encoded)
+        mips_.add(rows, [&](std::size_t i, const Image& made, const Image&) {
+            if (const Status encoded = levels_[i].add(made, encode); state && !encoded)
                 state = encoded;
         });
     return state;
@@ -115,7 +97,7 @@ Status TextureRows::add(const Image& rows, const Image* map)
 MadeTexture TextureRows::finish(const std::string& frame)
 {
     std::vector<TextureLevel> levels;
-    for (Level& level : levels_)
+    for (LevelRows& level : levels_)
         levels.push_back(std::move(level.made));
     const std::string bytes = textureBytes(settings_.file, code_, levels, frame);
     const auto count = int(levels.size());
@@ -123,16 +105,8 @@ MadeTexture TextureRows::finish(const std::string& frame)
     const auto view = std::as_bytes(std::span(bytes));
     MadeTexture made{{view.begin(), view.end()}, count, storedConvention(code_, settings_.to)};
     if (compared_)
-        made.cost = costOf(degrees_);
+        made.cost = {degrees_.mean(), degrees_.percentile(0.99)};
     return made;
-}
-
-Result<MadeTexture> wholeTexture(const Image& image, const TexelCode& code, bool compared, const TextureSettings& s)
-{
-    TextureRows texture(image.width, image.height, code, s.from, s);
-    COTAN_CHECK(
-        addWhole(texture, image, [&](const Image& rows) { return texture.add(rows, compared ? &rows : nullptr); }));
-    return texture.finish(image.frame);
 }
 
 std::vector<std::string> modelCompressionWords()

@@ -163,17 +163,6 @@ Status addCosts(const Image& map, const Convention& convention, const TextureLev
     return Done{};
 }
 
-TextureCost costOf(ValueStatistics& degrees) { return {degrees.mean(), degrees.percentile(0.99)}; }
-
-TextureLevel greyLevel(const Image& image, const TexelCode& code)
-{
-    return {image.width, image.height,
-            code == TexelCode::rgba8       ? image.data
-                : code == TexelCode::uastc ? encodeUastc(image, scaleOf(Expansion::biased), true)
-                : code == TexelCode::bc4   ? encodeBc4(image)
-                                           : encodeEacR11(image)};
-}
-
 Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, const Convention& to,
                           const std::filesystem::path& file, const std::string& swizzle)
 {

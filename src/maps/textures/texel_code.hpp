@@ -79,10 +79,6 @@ struct TextureCost {
 // read in its own convention. file: for its extension. Errors: as decodeImage.
 Status addCosts(const Image& map, const Convention& convention, const TextureLevel& level, const TexelCode& code,
                 const Convention& to, const std::filesystem::path& file, ValueStatistics& degrees);
-TextureCost costOf(ValueStatistics& degrees);
-
-// Red as a level of one channel: bc4, eacR11 or uastc (grey) of float32, or an image of unorm8 for rgba8.
-TextureLevel greyLevel(const Image& image, const TexelCode& code);
 
 // Parses a word of --compress for a file, and where its two channels are. Errors (ErrorKind::usage): "options.compress:
 // ", "options.to: ", "options.bits: " and "options.swizzle: ".
