@@ -136,7 +136,7 @@ TEST(ShellWords, anyWordsArriveAsTheyWere)
     for (int line = 0; line < 5000; ++line) {
         Words words(1 + random() % 3);
         for (std::string& word : words)
-            for (unsigned count = random() % 9; count > 0; --count)
+            for (auto count = random() % 9; count > 0; --count)
                 word += parts[random() % parts.size()];
         const std::string sh = commandLine(words, Shell::posix), cmd = commandLine(words, Shell::windows);
         EXPECT_EQ(takenApartBySh(sh), words) << sh;
