@@ -42,7 +42,7 @@ inline glm::vec3 ofSlopes(double right, double up) { return glm::vec3(glm::norma
 inline glm::dvec2 slopesOf(const glm::vec3& n) { return {-double(n.x) / double(n.z), -double(n.y) / double(n.z)}; }
 
 // Rows [first, last) of an image.
-inline Image rowsOf(const Image& image, int first, int last)
+inline Image rowsBetween(const Image& image, int first, int last)
 {
     Image strip = makeImage(image.width, last - first, image.type);
     const std::size_t row = std::size_t(image.width) * image.bytesPerPixel();

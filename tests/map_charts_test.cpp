@@ -269,7 +269,7 @@ TEST(Patches, do_not_depend_on_the_strips)
     PatchSampler whole(70, 100, PixelType::unorm16), cut(70, 100, PixelType::unorm16);
     whole.add(image, 0);
     for (int y = 0; y < 100; y += 3)
-        cut.add(rowsOf(image, y, std::min(y + 3, 100)), y);
+        cut.add(rowsBetween(image, y, std::min(y + 3, 100)), y);
     for (std::size_t i = 0; i < whole.patches().size(); ++i)
         EXPECT_EQ(whole.patches()[i].texels.data, cut.patches()[i].texels.data) << i;
 }
@@ -291,9 +291,9 @@ TEST(Surveys, one_colour_needs_one_pass)
     const auto survey = [](const Image& map, bool second) {
         MapSurvey s;
         for (int y = 0; y < map.height; y += 16)
-            s.addFirstPass(rowsOf(map, y, std::min(y + 16, map.height)));
+            s.addFirstPass(rowsBetween(map, y, std::min(y + 16, map.height)));
         for (int y = 0; y < map.height && second; y += 16)
-            s.addSecondPass(rowsOf(map, y, std::min(y + 16, map.height)));
+            s.addSecondPass(rowsBetween(map, y, std::min(y + 16, map.height)));
         return std::pair(s.oneColour(), s.finish());
     };
     Image map = makeImage(19, 40, PixelType::unorm8);

@@ -120,9 +120,9 @@ TEST(SmallBlends, strips_equal_the_whole)
                     .dither = true,
                     .imageHeight = 40};
     std::size_t invalid = 0;
-    const Image whole = blend(base, detail, s, invalid), top = blend(rowsOf(base, 0, 13), detail, s, invalid);
+    const Image whole = blend(base, detail, s, invalid), top = blend(rowsBetween(base, 0, 13), detail, s, invalid);
     s.firstRow = 13;
-    EXPECT_EQ(joined(top, blend(rowsOf(base, 13, 40), detail, s, invalid)).data, whole.data);
+    EXPECT_EQ(joined(top, blend(rowsBetween(base, 13, 40), detail, s, invalid)).data, whole.data);
 }
 
 TEST(SmallMips, an_impulse_is_weighted_by_area_in_odd_sizes)
@@ -283,9 +283,9 @@ TEST(SmallConversions, strips_equal_the_whole_with_dither)
     Noise noise(6);
     const Image map = floatMap(7, 40, [&](int, int) { return ofSlopes(noise.next() - 0.5, 0.7 * noise.next()); });
     RecodeSettings s{.from = kFloats, .to = {}, .type = PixelType::unorm8, .dither = true};
-    const Image whole = recoded(map, s), top = recoded(rowsOf(map, 0, 11), s);
+    const Image whole = recoded(map, s), top = recoded(rowsBetween(map, 0, 11), s);
     s.firstRow = 11;
-    EXPECT_EQ(joined(top, recoded(rowsOf(map, 11, 40), s)).data, whole.data);
+    EXPECT_EQ(joined(top, recoded(rowsBetween(map, 11, 40), s)).data, whole.data);
 }
 
 TEST(SmallConversions, three_channels_keep_alpha_and_two_set_it_to_one)

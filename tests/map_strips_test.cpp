@@ -49,7 +49,7 @@ private:
 using Numbers = std::vector<int>;
 
 // The row numbers in a strip, by the first texel and the last byte of each row.
-Numbers rowsOf(const Image& strip)
+Numbers rowsBetween(const Image& strip)
 {
     Numbers rows;
     const std::size_t bytes = std::size_t(strip.width) * 4;
@@ -73,7 +73,7 @@ TEST(MapStrips, includeNeighbouringRowsAndBorders)
             RowReader* const readers[] = {&reader};
             int expectedFirst = 0;
             const Status done = streamStrips(readers, plan, {}, [&](std::span<Image> strips, int firstRow) {
-                return [&, found = rowsOf(strips[0]), firstRow, count = strips.size()]() -> Status {
+                return [&, found = rowsBetween(strips[0]), firstRow, count = strips.size()]() -> Status {
                     EXPECT_EQ(count, 1u);
                     EXPECT_EQ(firstRow, expectedFirst) << "in order";
                     const int last = std::min(firstRow + 16, height), border = kind > 0 ? 1 : 0;
