@@ -176,12 +176,14 @@ TEST(MapStored, workOverTheBudgetIsRefusedWithBothNumbers)
         return done ? "" : done.error().message;
     };
     budget(19 * pixels / 3); // 8 bytes of moments and 11 one-byte components; mips may take three times the budget
-    EXPECT_EQ(mips("8", "a.dds"), "");
+    EXPECT_EQ(mips("8", "a.png"), "");
     budget(19 * pixels / 3 - 1);
     const std::string begin = flat.string() + ": the chain takes ", end = " MiB for a file of this size";
-    EXPECT_EQ(mips("8", "b.dds"), begin + "3 MiB for 512 x 384, the limit is 3" + end);  // 3.56 MiB, limit a bit less
+    EXPECT_EQ(mips("8", "b.png"), begin + "3 MiB for 512 x 384, the limit is 3" + end);  // 3.56 MiB, limit a bit less
     EXPECT_EQ(mips("16", "c.png"), begin + "5 MiB for 512 x 384, the limit is 3" + end); // 30 bytes: 5.6 MiB
-    EXPECT_FALSE(fs::exists(folder / "b.dds"));
+    EXPECT_FALSE(fs::exists(firstMipFile(folder / "b.png")));
+    EXPECT_TRUE(fs::exists(firstMipFile(folder / "a.png")));
+    EXPECT_EQ(mips("8", "d.dds"), ""); // textures are made in strips
 }
 
 TEST(MapStored, unsupportedTextureFormatsAreReported)
