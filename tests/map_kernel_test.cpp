@@ -104,7 +104,8 @@ TEST(Kernels, strips_with_their_borders_equal_the_whole)
     const Image whole = normalsFromHeight(image, s, invalid);
     s.bordered = true;
     s.firstRow = 17;
-    const Image strip = normalsFromHeight(rowsBetween(image, 16, 40), s, invalid); // rows 17 to 38, plus one at either end
+    const Image strip =
+        normalsFromHeight(rowsBetween(image, 16, 40), s, invalid); // rows 17 to 38, plus one at either end
     EXPECT_EQ(strip.data, rowsBetween(whole, 17, 39).data);
 }
 

@@ -170,9 +170,8 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 void forRowBands(int width, int height, const std::function<void(int first, int last)>& work)
 {
     constexpr int kBand = 16;
-    constexpr std::int64_t kFewTexels = 4096; // they take less time than starting a thread
-    const bool few = std::int64_t(width) * height <= kFewTexels;
-    withThreads(few ? 1 : 0, [&] {
+    constexpr std::size_t kWorthAThread = 4096; // texels: fewer take less time than starting one
+    withThreads(int(threadsFor(std::size_t(width) * std::size_t(height), kWorthAThread)), [&] {
         parallelFor(0, (height + kBand - 1) / kBand,
                     [&](int band) { work(band * kBand, std::min(height, (band + 1) * kBand)); });
     });

@@ -225,16 +225,17 @@ void CommandRecorder::writeViewSet(bool layered)
     write(viewSet_, lists, shadow, environment);
     write(composeSet_, lists, layered && targets_->multisampled() ? depth : shadow,
           targets_->resolves() ? samples : environment);
-    write(markSet_, visible_ ? whole(visible_->marks) : lights, shadow, environment);
+    write(markSet_, lights, shadow, environment); // dropHidden puts the marks there
 }
 
 // The pipeline that draws the item in the pass of the key.
 PipelineKey CommandRecorder::keyOf(PipelineKey key, const Item& item)
 {
-    key.extended = !ofPositions(key.pass) && item.material->extended();
-    if (!ofPositions(key.pass))
-        key.alphaMode = item.material->alphaMode;
-    if (!isShadow(key.pass) && !ofPositions(key.pass))
+    if (isPrepass(key.pass) || key.pass == Pass::shadow) // read positions alone
+        return key;
+    key.extended = item.material->extended();
+    key.alphaMode = item.material->alphaMode;
+    if (!isShadow(key.pass))
         key.maps = item.material->maps & mapsNeeded(key);
     return key;
 }

@@ -66,6 +66,8 @@ private:
     void beginColor(const vk::raii::CommandBuffer& commands, const Texture2D& target, vk::AttachmentLoadOp load,
                     const vk::Rect2D& area) const;
 
+    // Makes the depth ready to be drawn, cleared to 0. kept: it is read later.
+    vk::RenderingAttachmentInfo clearedDepth(const vk::raii::CommandBuffer& commands, bool kept) const;
     void chooseResolved();
 
     Memory memory_;

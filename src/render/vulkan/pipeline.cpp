@@ -104,8 +104,6 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
             forwardShader(key, !key.framesOfMeshes && info(key.frame).source == FrameSource::triangle)};
 }
 
-bool isPrepass(Pass pass) { return pass == Pass::depth || pass == Pass::marks; }
-
 bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround && pass != Pass::resolve; }
 
 // Whether the pass draws a single triangle, made by the vertex stage, that covers the image.

@@ -43,8 +43,7 @@ vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPo
 enum class Pass { shadow, shadowMask, depth, marks, forward, background, surround, layers, compose, resolve };
 
 constexpr bool isShadow(Pass pass) { return pass == Pass::shadow || pass == Pass::shadowMask; }
-// Whether the pass reads no material.
-constexpr bool ofPositions(Pass pass) { return pass == Pass::shadow || pass == Pass::depth || pass == Pass::marks; }
+constexpr bool isPrepass(Pass pass) { return pass == Pass::depth || pass == Pass::marks; }
 
 // All specialisations of a pipeline. Fields that a pass ignores keep their defaults, so that equal pipelines have equal
 // keys.

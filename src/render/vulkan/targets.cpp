@@ -90,13 +90,25 @@ void Targets::beginSurround(const vk::raii::CommandBuffer& commands)
     beginColor(commands, resolved_->texture, vk::AttachmentLoadOp::eClear, {{0, 0}, {kind_.width, kind_.height}});
 }
 
+vk::RenderingAttachmentInfo Targets::clearedDepth(const vk::raii::CommandBuffer& commands, bool kept) const
+{
+    transition(
+        commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
+        {vk::ImageLayout::eUndefined, kDepthStages | Stage::eFragmentShader, Access::eDepthStencilAttachmentWrite},
+        kDepthDrawn);
+    return {*depth_.view,
+            vk::ImageLayout::eDepthAttachmentOptimal,
+            {},
+            {},
+            {},
+            vk::AttachmentLoadOp::eClear,
+            kept ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare,
+            vk::ClearDepthStencilValue(0.0f, 0)};
+}
+
 void Targets::beginDepth(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
 {
-    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
-               {vk::ImageLayout::eUndefined, kDepthStages | Stage::eFragmentShader, {}}, kDepthDrawn);
-    const vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
-                                            vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare,
-                                            vk::ClearDepthStencilValue(0.0f, 0));
+    const vk::RenderingAttachmentInfo depth = clearedDepth(commands, false);
     commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, 0, nullptr, &depth));
     setArea(commands, area);
 }
@@ -107,16 +119,8 @@ void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& a
         commands, *color_.image, kColorAspect,
         {vk::ImageLayout::eUndefined, Stage::eTransfer | Stage::eFragmentShader | Stage::eColorAttachmentOutput, {}},
         kDrawnInto);
-    transition(
-        commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
-        {vk::ImageLayout::eUndefined, kDepthStages | Stage::eFragmentShader, Access::eDepthStencilAttachmentWrite},
-        kDepthDrawn);
-
-    constexpr auto clear = vk::AttachmentLoadOp::eClear;
-    const auto kept = layersFollow ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
-    const vk::RenderingAttachmentInfo color(*color_.view, kAttachment, {}, {}, {}, clear);
-    const vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {}, clear,
-                                            kept, vk::ClearDepthStencilValue(0.0f, 0));
+    const vk::RenderingAttachmentInfo color(*color_.view, kAttachment, {}, {}, {}, vk::AttachmentLoadOp::eClear);
+    const vk::RenderingAttachmentInfo depth = clearedDepth(commands, layersFollow);
     commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color, &depth));
     setArea(commands, area);
 }
