@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/large_array.hpp"
 #include "core/try.hpp"
 #include "cotan/files.hpp"
 #include "files/file_registry.hpp"
@@ -54,7 +55,7 @@ Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t l
     const OpenFile handle(openStream(file, "rb"));
     if (!handle)
         return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
-    std::vector<std::byte> bytes(*size);
+    std::vector<std::byte> bytes = zeros<std::byte>(*size);
     if (std::fread(bytes.data(), 1, bytes.size(), handle.get()) != bytes.size())
         return inputError(fmt::format("{}: reading stopped before the end", file.string()));
     return bytes;

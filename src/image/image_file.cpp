@@ -113,7 +113,9 @@ Status write(const OutputFile& output, const Image& image, const std::string& na
     COTAN_TRY(file, output.open(/*reads*/ !png));
     if (!png)
         return (*formats)->write(*std::move(file), image, name);
-    return writePng(*std::move(file), image.type == PixelType::float32 ? toUnorm8(image) : image, name);
+    if (image.type == PixelType::float32)
+        return writePng(*std::move(file), toUnorm8(image), name);
+    return writePng(*std::move(file), image, name);
 }
 
 Result<EncodedLike> asPng(const Image& image, std::string reason)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/large_array.hpp"
+
 namespace cotan {
 
 namespace {
@@ -45,6 +47,8 @@ Memory::Block& Memory::addBlock(std::uint32_t type, vk::DeviceSize size)
     const auto mappable = vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
     if ((properties & mappable) == mappable)
         block.mapped = static_cast<std::byte*>(block.memory.mapMemory(0, VK_WHOLE_SIZE));
+    if (device_->cpu && block.mapped) // it is memory of this process
+        requestLargePages(block.mapped, size);
     return blocks_.emplace_back(std::move(block));
 }
 

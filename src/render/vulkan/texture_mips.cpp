@@ -9,6 +9,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "core/large_array.hpp"
 #include "cotan/portable.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -137,7 +138,7 @@ std::vector<Taps> makeTaps(int source, int target)
 template<class RowOf> FloatLevel halved(int width, int height, RowOf rowOf)
 {
     FloatLevel level{std::max(width / 2, 1), std::max(height / 2, 1), {}};
-    level.texels.assign(std::size_t(level.width) * std::size_t(level.height), vec4(0));
+    level.texels = zeros<vec4>(std::size_t(level.width) * std::size_t(level.height));
     const std::vector<Taps> columns = makeTaps(width, level.width);
     const std::vector<Taps> rows = makeTaps(height, level.height);
     for (int y = 0; y < level.height; ++y) {

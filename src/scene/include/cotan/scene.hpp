@@ -91,16 +91,7 @@ inline bool isOpaque(const Image& image)
 }
 
 // Returns an image of the given size with all bytes zero.
-inline Image makeImage(int width, int height, PixelType type, std::string name = {})
-{
-    Image image;
-    image.name = std::move(name);
-    image.width = width;
-    image.height = height;
-    image.type = type;
-    image.data.resize(image.pixelCount() * image.bytesPerPixel());
-    return image;
-}
+Image makeImage(int width, int height, PixelType type, std::string name = {});
 
 // ---- the scene -----------------------------------------------------------------------------
 
