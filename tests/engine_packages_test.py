@@ -1,19 +1,20 @@
-"""What users of Unity and Unreal install: engine_packages_test.py SOURCES TOOL GLSLANG.
+"""What users of Unity and Unreal install: engine_packages_test.py SOURCES TOOL GLSLANG [BUILD].
 
 The engines cannot be run here. glslang compiles every function that they would, with stand-ins for the engines' own, and
-dxc compiles the same if it is installed. The files that describe the packages are checked for what they name."""
+with BUILD Microsoft's DXC and FXC compile the same under Wine, as the engines do (tests/direct3d/run; exit code 77: they
+cannot run here). The files that describe the packages are checked for what they name."""
 
 import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 
 SOURCES, TOOL, GLSLANG = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2], sys.argv[3]
-DXC = shutil.which("dxc")
+BUILD = sys.argv[4] if len(sys.argv) > 4 else None
+HLSL = []  # (text, stage, entry) of all that Microsoft's compilers are to compile
 
 UNITY = """
 #define UNITY_EXPORT_REFLECTION
@@ -43,12 +44,25 @@ def compiles(text, stage="frag", entry="main"):
     with tempfile.TemporaryDirectory() as place:
         file = pathlib.Path(place) / "text.hlsl"
         file.write_text(text)
-        commands = [[GLSLANG, "-D", "-V", "-S", stage, "-e", entry, "--source-entrypoint", entry, "-o", f"{place}/out", file]]
-        if DXC:
-            commands.append([DXC, "-T", "ps_6_0" if stage == "frag" else "vs_6_0", "-E", entry, "-Fo", f"{place}/out.dxil", file])
-        for command in commands:
-            run = subprocess.run(command, capture_output=True, text=True)
-            assert run.returncode == 0, run.stdout + run.stderr + text
+        run = subprocess.run([GLSLANG, "-D", "-V", "-S", stage, "-e", entry, "--source-entrypoint", entry, "-o", f"{place}/out", file], capture_output=True, text=True)
+        assert run.returncode == 0, run.stdout + run.stderr + text
+    HLSL.append((text, "ps" if stage == "frag" else "vs", entry))
+
+
+def microsoftsCompilersTakeTheSame():
+    sys.path.insert(0, str(SOURCES / "tests/direct3d"))
+    import hlsl
+
+    with tempfile.TemporaryDirectory() as place:
+        folder, jobs = pathlib.Path(place), []
+        for number, (text, stage, entry) in enumerate(HLSL):
+            (folder / f"{number}.hlsl").write_text(text)
+            jobs.append(["dxc", f"dxc{number}", f"{number}.hlsl", entry, f"{stage}_6_0"])
+            jobs.append(["fxc", f"fxc{number}", f"{number}.hlsl", entry, f"{stage}_5_0"])
+        assert len(jobs) >= 2 * 9
+        _, failed = hlsl.run(BUILD, folder, jobs)
+        bad = [f"{name}: {hlsl.messages(folder, name)}\n{HLSL[int(name[3:])][0]}" for _, name, *_ in jobs if name in failed or hlsl.messages(folder, name)]
+        assert not bad, "\n".join(bad)
 
 
 def included(text, folder):
@@ -125,10 +139,14 @@ def unrealsCodeCompilesInBothStages(folder):
     names = re.findall(r'InputName="(\w+)"', (plugin / "MaterialNodes.txt").read_text())
     assert names == ["Normal", "Position", "UV", "Texel"]
     # Unreal puts the code into a function. glslang accepts functions of a struct only outside of functions.
+    inside = "float3 custom(float3 Normal, float3 Position, float2 UV, float3 Texel)\n{\n" + code + "\n}\n"
     start, end = code.split("} cotan;\n")
     whole = start + "};\nfloat3 custom(float3 Normal, float3 Position, float2 UV, float3 Texel)\n{\n    CotanFunctions cotan;\n" + end + "\n}\n"
     for stage in (0, 1):
-        compiles(f"#define PIXELSHADER {stage}\n" + whole + FRAGMENT % "return float4(custom(n, p, uv, float3(0, 0, 1)), 1);")
+        start = f"#define PIXELSHADER {stage}\n"
+        body = FRAGMENT % "return float4(custom(n, p, uv, float3(0, 0, 1)), 1);"
+        compiles(start + whole + body)
+        HLSL.append((start + inside + body, "ps", "main"))
     functions = (plugin / "Shaders/Cotan.ush").read_text().replace("#pragma once\n", "")
     compiles(functions + FRAGMENT % "return float4(cotan_perturb_normal(n, p, uv, float3(0, 0, 1)), 1);")
 
@@ -155,4 +173,6 @@ with tempfile.TemporaryDirectory() as place:
     for fact in (unityHasAGuidForEachFileAndKeepsIt, unitysFunctionsCompile, unrealsNodesReadEachOther, unrealsCodeCompilesInBothStages, theSameCommitGivesTheSameBytes):
         fact(folder)
         print("holds:", fact.__name__)
-print("compiled by glslang" + (" and dxc" if DXC else "; dxc is not installed"))
+if BUILD:
+    microsoftsCompilersTakeTheSame()
+    print("holds: microsoftsCompilersTakeTheSame")

@@ -5,9 +5,7 @@ namespace cotan::test {
 
 using shader_text::Language;
 
-namespace {
-
-std::string shaderOf(const Case& c, Language language)
+std::string computeText(const Case& c, Language language)
 {
     const bool hlsl = language == Language::hlsl;
     auto in = [](int i) { return "inputs[i * 16u + " + std::to_string(i) + "u]"; };
@@ -32,8 +30,6 @@ std::string shaderOf(const Case& c, Language language)
         + c.text(language) + "void main()\n{\n    uint i = gl_GlobalInvocationID.x;\n" + body;
 }
 
-} // namespace
-
 std::string toSpirv(const std::string& shader, const std::string& stage, bool hlsl, const std::string& label)
 {
     const char* keep = std::getenv("COTAN_SPIRV");
@@ -57,7 +53,7 @@ std::string toSpirv(const std::string& shader, const std::string& stage, bool hl
 
 std::string computeSpirv(const Case& c, Language language)
 {
-    return toSpirv(shaderOf(c, language), "comp", language == Language::hlsl, c.name);
+    return toSpirv(computeText(c, language), "comp", language == Language::hlsl, c.name);
 }
 
 } // namespace cotan::test

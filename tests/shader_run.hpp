@@ -42,7 +42,8 @@ inline bool shell(const std::string& line, const std::filesystem::path& log)
 // and read from the folder COTAN_SPIRV, if set, which bench/on-gpu carries to machines without glslang.
 std::string toSpirv(const std::string& shader, const std::string& stage, bool hlsl, const std::string& label);
 
-// A case as a compute shader: inputs at binding 0, outputs at binding 1.
+// A case as a compute shader, in GLSL or HLSL: inputs at binding 0, outputs at binding 1.
+std::string computeText(const Case& c, shader_text::Language language);
 std::string computeSpirv(const Case& c, shader_text::Language language);
 
 inline std::vector<std::uint32_t> wordsOf(const std::string& spirv)

@@ -144,8 +144,9 @@ inline cotan_real cotan_max_abs(cotan_vec3 a)
 inline cotan_differences cotan_scale_differences(cotan_vec3 dpdx, cotan_vec3 dpdy,
     cotan_vec2 duvdx, cotan_vec2 duvdy)
 {
-    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
-    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= cotan_real(1e37);
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN. Two comparisons of one kind with
+    // the same number would become one with max() in OpenGL on Mesa, hence < and <=.
+    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) < cotan_real(1e37);
     bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x)
         + abs(duvdy.y) <= cotan_real(1e37);
     cotan_differences d;

@@ -60,8 +60,9 @@ struct cotan_differences {
 COTAN_FUNCTION cotan_differences cotan_scale_differences(
     cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
 {
-    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
-    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= COTAN_HUGE;
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN. Two comparisons of one kind with
+    // the same number would become one with max() in OpenGL on Mesa, hence < and <=.
+    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) < COTAN_HUGE;
     bool uv_usable =
         p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= COTAN_HUGE;
     cotan_differences d;

@@ -49,8 +49,13 @@
 #define cotan_bits_float(x) asfloat(x)
 #define cotan_uint uint
 #define cotan_real_of(x) float(x)
-#define cotan_pack_half(v) (f32tof16((v).x) | (f32tof16((v).y) << 16))
 #define cotan_unpack_half(word) float2(f16tof32((word) & 0xffffu), f16tof32((word) >> 16))
+// Rounds to nearest itself: f32tof16 may cut off, as FXC does with constants.
+uint cotan_pack_half(float2 v)
+{
+    uint2 w = f32tof16(asfloat((asuint(v) + 0x1000u) & 0xffffe000u));
+    return w.x | (w.y << 16u);
+}
 
 #elif defined(COTAN_LANG_CPP)
 

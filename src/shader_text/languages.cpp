@@ -14,15 +14,13 @@ using namespace metal;
 
 )";
 
-// Two halfs in a word, for languages without such a function.
+// Two halfs in a word, for languages without such a function. HLSL's f32tof16 may cut off instead of rounding.
 constexpr std::string_view kHlslHalfs = R"(uint cotan_pack_half(float2 v)
 {
-    return f32tof16(v.x) | (f32tof16(v.y) << 16u);
+    uint2 w = f32tof16(asfloat((asuint(v) + 0x1000u) & 0xffffe000u));
+    return w.x | (w.y << 16u);
 }
-float2 cotan_unpack_half(uint word)
-{
-    return float2(f16tof32(word & 0xffffu), f16tof32(word >> 16u));
-}
+float2 cotan_unpack_half(uint word) { return float2(f16tof32(word & 0xffffu), f16tof32(word >> 16u)); }
 
 )";
 

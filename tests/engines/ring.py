@@ -181,14 +181,14 @@ def between(engine, ours, own):
     print(f"{engine}: {degrees(ours[both][:, :3], own[both][:, :3]).mean():.3f} degrees between Cotan and its tangents, in the mean")
 
 
-def judge_page(engine, version, ours, own):
+def judge_page(engine, version, ours, own=None):
     """The rows of docs/engines.md, if they are of this version. Each has mean and 99 % of the left and the right ring."""
     page = (ROOT / "docs/engines.md").read_text().splitlines()
     if not any(line.startswith(f"| {engine}") and f" | {version} | " in line for line in page):
         print(f"docs/engines.md has another version than {version}: not compared")
         return
     for kind in MAPS:
-        for whose, results in (("Cotan", ours), ("its tangents", own)):
+        for whose, results in (("Cotan", ours), ("its tangents", own))[: 2 if own else 1]:
             start = f"| {engine}, {kind}: {whose} |"
             cells = next(line for line in page if line.startswith(start)).split("|")[2:4]
             for cell, (name, *_) in zip(cells, PAIR):

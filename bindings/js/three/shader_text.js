@@ -100,8 +100,9 @@ float cotan_sign(float x)
 // depend on the common scale of positions or of uv are unchanged, bit for bit.
 cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
-    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
-    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN. Two comparisons of one kind with
+    // the same number would become one with max() in OpenGL on Mesa, hence < and <=.
+    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) < 1e37;
     bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     cotan_differences d;
     d.dpdx = p_usable ? dpdx : vec3(0.0, 0.0, 0.0);
@@ -304,8 +305,9 @@ float cotan_sign(float x)
 // depend on the common scale of positions or of uv are unchanged, bit for bit.
 cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
-    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
-    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN. Two comparisons of one kind with
+    // the same number would become one with max() in OpenGL on Mesa, hence < and <=.
+    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) < 1e37;
     bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     cotan_differences d;
     d.dpdx = p_usable ? dpdx : vec3(0.0, 0.0, 0.0);
@@ -641,8 +643,9 @@ float cotan_sign(float x)
 // depend on the common scale of positions or of uv are unchanged, bit for bit.
 cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
-    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
-    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN. Two comparisons of one kind with
+    // the same number would become one with max() in OpenGL on Mesa, hence < and <=.
+    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) < 1e37;
     bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     cotan_differences d;
     d.dpdx = p_usable ? dpdx : vec3(0.0, 0.0, 0.0);
@@ -872,8 +875,9 @@ fn cotan_sign(x: f32) -> f32 {
 // depend on the common scale of positions or of uv are unchanged, bit for bit.
 fn cotan_scale_differences(dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     -> cotan_differences {
-    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
-    let p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN. Two comparisons of one kind with
+    // the same number would become one with max() in OpenGL on Mesa, hence < and <=.
+    let p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) < 1e37;
     let uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     var d: cotan_differences;
     d.dpdx = select(vec3f(0.0, 0.0, 0.0), dpdx, p_usable);
@@ -1066,8 +1070,9 @@ fn cotan_sign(x: f32) -> f32 {
 // depend on the common scale of positions or of uv are unchanged, bit for bit.
 fn cotan_scale_differences(dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     -> cotan_differences {
-    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
-    let p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN. Two comparisons of one kind with
+    // the same number would become one with max() in OpenGL on Mesa, hence < and <=.
+    let p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) < 1e37;
     let uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     var d: cotan_differences;
     d.dpdx = select(vec3f(0.0, 0.0, 0.0), dpdx, p_usable);
@@ -1387,8 +1392,9 @@ fn cotan_sign(x: f32) -> f32 {
 // depend on the common scale of positions or of uv are unchanged, bit for bit.
 fn cotan_scale_differences(dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     -> cotan_differences {
-    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
-    let p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN. Two comparisons of one kind with
+    // the same number would become one with max() in OpenGL on Mesa, hence < and <=.
+    let p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) < 1e37;
     let uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     var d: cotan_differences;
     d.dpdx = select(vec3f(0.0, 0.0, 0.0), dpdx, p_usable);

@@ -4,7 +4,7 @@
 //   meshlet and shadeFlat           computed by the mesh shader for each primitive (shader model 6.5; -D MESH)
 //   pack, then shadeRead            computed once, 12 bytes per triangle, read by SV_PrimitiveID
 //   pack, then resolve              computed once, read when a visibility buffer is resolved
-// A test compiles all but the mesh shader by glslangValidator, which does not support mesh shaders in HLSL.
+// Tests compile it by DXC, and all but the mesh shader by FXC and glslangValidator.
 #define COTAN_LANG_HLSL
 #include "cotan/lang.h"
 #include "cotan/normal.h"
