@@ -4,6 +4,7 @@
 
 #include "cotan/image.hpp"
 #include "fuzz.hpp"
+#include "image/codecs.hpp"
 #include "limits.hpp"
 
 using namespace cotan;
@@ -11,7 +12,11 @@ using namespace cotan::fuzz;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const auto image = decodeImage(std::as_bytes(std::span(data, size)), "picture.tga", smallLimits());
+    const auto bytes = std::as_bytes(std::span(data, size));
+    if (const auto blocks = readJpegBlocks(bytes, smallLimits(), 64)) // also of files whose pixels are refused
+        for (const JpegBlocks::Component& c : blocks->components)
+            COTAN_HOLDS(c.coefficients.size() == blocks->units.size() * std::size_t(c.across * c.down) * 64);
+    const auto image = decodeImage(bytes, "picture.tga", smallLimits());
     if (!image) {
         checkError(image.error());
         return 0;
@@ -20,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     COTAN_HOLDS(image->width > 0 && image->width <= side && image->height > 0 && image->height <= side, "{} x {}",
                 image->width, image->height);
     COTAN_HOLDS(image->data.size() == image->pixelCount() * image->bytesPerPixel(), "{}", image->data.size());
-    const auto again = decodeImage(std::as_bytes(std::span(data, size)), "picture.tga", smallLimits());
+    const auto again = decodeImage(bytes, "picture.tga", smallLimits());
     COTAN_HOLDS(again && again->data == image->data, "the second reading differs");
     if (image->type == PixelType::float32 || image->pixelCount() > 65536)
         return 0;

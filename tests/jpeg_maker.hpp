@@ -16,7 +16,8 @@ struct JpegSettings {
     bool halved = false;       // chroma at half the width and height
     bool halvedAcross = false; // chroma at half the width
     bool progressive = false;
-    bool rgb = false; // stored as RGB, not as luma and chroma
+    bool rgb = false;  // stored as RGB, not as luma and chroma
+    bool grey = false; // luma only
 };
 
 // image: of type unorm8; its alpha is dropped.
@@ -34,7 +35,7 @@ inline std::vector<std::byte> jpegOf(const Image& image, const JpegSettings& set
     jpeg.input_components = 4;
     jpeg.in_color_space = JCS_EXT_RGBA;
     jpeg_set_defaults(&jpeg);
-    jpeg_set_colorspace(&jpeg, settings.rgb ? JCS_RGB : JCS_YCbCr);
+    jpeg_set_colorspace(&jpeg, settings.grey ? JCS_GRAYSCALE : settings.rgb ? JCS_RGB : JCS_YCbCr);
     jpeg_set_quality(&jpeg, settings.quality, TRUE);
     jpeg.comp_info[0].h_samp_factor = settings.halved || settings.halvedAcross ? 2 : 1;
     jpeg.comp_info[0].v_samp_factor = settings.halved ? 2 : 1;

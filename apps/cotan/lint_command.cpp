@@ -51,6 +51,7 @@ Result<LintJob> jobOf(const LintCommandOptions& o)
         return usageError("--strict: expected --limit DEGREES or --limit-area PERCENT; found neither");
     job.load = limitsFor(job.memory, Pixels::whereReadable);
     job.load.up = o.up;
+    job.load.keepsJpeg = job.details;
     job.lint.memory = std::size_t(job.memory) << 20;
     job.lint.limits = ChoiceLimits::of(o.maxDegrees);
     return job;
@@ -65,8 +66,8 @@ struct LintResult {
     std::vector<ProblemArea> areas;
     std::string command;                          // that follows the advice; empty if it would change nothing
     std::vector<std::vector<TriedFormat>> blocks; // with details: what formats would cost each of report.maps
-    std::vector<std::optional<double>> lost; // with details: degrees that blocks in its file have cost each of them
-    double loadSeconds = 0, seconds = 0;     // seconds: of the measurements
+    std::vector<std::optional<CostBefore>> lost;  // with details: what its file has cost each of them
+    double loadSeconds = 0, seconds = 0;          // seconds: of the measurements
 };
 
 std::string commandFor(const LintJob& job, const LintReport& report)
@@ -142,10 +143,10 @@ std::vector<std::string> linesOf(const LintJob& job, const LintResult& done)
     }
     for (std::size_t i = 0; i < done.lost.size(); ++i)
         if (done.lost[i])
-            details.push_back(fmt::format("{}: its blocks ({}) have already cost about {:.2f} degrees on average, "
-                                          "estimated from what they hold",
-                                          nameOf(done.report.maps[i]), imageOf(done.report.maps[i], done.scene)->blocks,
-                                          *done.lost[i]));
+            details.push_back(fmt::format("{}: its file ({}) has already cost about {:.2f} degrees on average, "
+                                          "estimated from what it holds",
+                                          nameOf(done.report.maps[i]), done.lost[i]->format,
+                                          done.lost[i]->meanDegrees));
     const std::vector<std::string> checks = job.limits.any()
         ? checkLines(done.check, job.details ? done.check.failures.size() : 1)
         : std::vector<std::string>();
@@ -190,8 +191,8 @@ Json toJson(const LintJob& job, const LintResult& done)
     for (std::size_t i = 0; i < done.lost.size(); ++i)
         if (done.lost[i])
             lost.push_back({{"map", done.report.maps[i].name},
-                            {"compress", imageOf(done.report.maps[i], done.scene)->blocks},
-                            {"mean_degrees", *done.lost[i]}});
+                            {"compress", done.lost[i]->format},
+                            {"mean_degrees", done.lost[i]->meanDegrees}});
     j["lost_before"] = lost;
     j["check"] = toJson(done.check);
     j["over_limit"] = overLimits(done.check);

@@ -2,7 +2,9 @@
 // (missing_codecs.cpp).
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -44,6 +46,24 @@ Result<std::unique_ptr<RowWriter>> createPngRows(OpenFile file, const RowFormat&
 // As decodeImage; CMYK becomes RGB, without a colour profile. Returns nullopt if this build has no libjpeg.
 std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const std::string& name,
                                       const LoadLimits& limits);
+
+// Blocks of a JPEG file: what it stores in some of its units, which are 8, 16 or more texels wide and high.
+struct JpegBlocks {
+    struct Component {
+        int across = 1, down = 1;                 // blocks in a unit
+        std::array<std::uint16_t, 64> steps{};    // quantisation, by frequency: 8 v + u
+        std::vector<std::int16_t> coefficients{}; // in steps: 64 of each block, row by row, unit after unit
+    };
+    int unitWidth = 0, unitHeight = 0;       // texels
+    std::vector<std::array<int, 2>> units{}; // the first texel of each, column and row
+    bool rgb = false;                        // the components are red, green and blue; else Y, Cb and Cr
+    std::array<Component, 3> components{};
+};
+
+// Reads about maxUnits units, spread over the image; those that its right and lower edge cut are left out. Returns
+// nullopt for grey and CMYK files, for what readJpeg refuses, and in a build that has no libjpeg.
+std::optional<JpegBlocks> readJpegBlocks(std::span<const std::byte> bytes, const LoadLimits& limits,
+                                         std::size_t maxUnits);
 
 // As encodeLike, of an opaque image of unorm8. quality: receives that of the quantisation tables. Returns nullopt if
 // the old file is grey, CMYK or a JPEG that cannot be read.

@@ -135,6 +135,8 @@ try {
     Result<Image> image = decode(bytes, name, own);
     if (image)
         image->blocks = blockName(bytes);
+    if (image && limits.keepsJpeg && imageFormatName(bytes) == "JPEG")
+        image->jpeg.assign(bytes.begin(), bytes.end());
     return image;
 } catch (const std::bad_alloc&) {
     return inputError(fmt::format("{}: not enough memory for the image", name));

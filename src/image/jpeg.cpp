@@ -123,9 +123,9 @@ std::size_t countScans(std::span<const std::byte> bytes)
 }
 
 // Checks costs beyond those of the pixels: time for every scan and, for files of several scans, memory for all
-// coefficients, 2 bytes each. jpeg: its header has been read.
+// coefficients, 2 bytes each. jpeg: its header has been read. buffered: whether other files need that memory, too.
 std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<const std::byte> bytes,
-                                const std::string& name, const LoadLimits& limits)
+                                const std::string& name, const LoadLimits& limits, bool buffered = false)
 {
     const std::size_t pixels = std::size_t(jpeg.image_width) * jpeg.image_height;
     const std::size_t scans = countScans(bytes);
@@ -136,7 +136,7 @@ std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<co
     std::size_t coefficients = 0;
     for (int c = 0; c < jpeg.num_components; ++c)
         coefficients += std::size_t(jpeg.comp_info[c].width_in_blocks) * jpeg.comp_info[c].height_in_blocks * DCTSIZE2;
-    const bool buffered = jpeg.progressive_mode || scans > 1;
+    buffered = buffered || jpeg.progressive_mode || scans > 1;
     if (buffered && coefficients * sizeof(JCOEF) > limits.imageBytes)
         return memoryError(fmt::format("{}: its {} scans of {} x {} pixels take {} bytes, the limit is {}", name, scans,
                                        jpeg.image_width, jpeg.image_height, coefficients * sizeof(JCOEF),
@@ -171,6 +171,68 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
     if (!readPixels(decoder, image.bytes8(), std::size_t(width) * 4))
         return broken();
     return image;
+}
+
+namespace {
+
+// Places the units in the image, whose header has been read.
+JpegBlocks placeUnits(const jpeg_decompress_struct& jpeg, std::size_t maxUnits)
+{
+    JpegBlocks blocks{.unitWidth = jpeg.max_h_samp_factor * DCTSIZE, .unitHeight = jpeg.max_v_samp_factor * DCTSIZE};
+    blocks.rgb = jpeg.jpeg_color_space == JCS_RGB;
+    const std::size_t across = jpeg.image_width / std::size_t(blocks.unitWidth);
+    const std::size_t all = across * (jpeg.image_height / std::size_t(blocks.unitHeight));
+    constexpr double kGolden =
+        0.618033988749895; // fractions of its multiples are spread evenly, at no regular distance
+    for (std::size_t i = 0; i < std::min(all, maxUnits); ++i) {
+        const double whole = double(i) * kGolden;
+        const std::size_t unit = all <= maxUnits ? i : std::size_t((whole - std::floor(whole)) * double(all));
+        blocks.units.push_back({int(unit % across) * blocks.unitWidth, int(unit / across) * blocks.unitHeight});
+    }
+    for (std::size_t c = 0; c < blocks.components.size(); ++c) {
+        JpegBlocks::Component& component = blocks.components[c];
+        component.across = jpeg.comp_info[c].h_samp_factor;
+        component.down = jpeg.comp_info[c].v_samp_factor;
+        component.coefficients.resize(blocks.units.size() * std::size_t(component.across * component.down) * DCTSIZE2);
+    }
+    return blocks;
+}
+
+bool readUnits(Decoder& decoder, JpegBlocks& blocks)
+{
+    jpeg_decompress_struct& jpeg = decoder.jpeg;
+    if (setjmp(decoder.escape))
+        return false;
+    jvirt_barray_ptr* const arrays = jpeg_read_coefficients(&jpeg);
+    for (std::size_t c = 0; c < blocks.components.size(); ++c) {
+        JpegBlocks::Component& component = blocks.components[c];
+        if (!jpeg.comp_info[c].quant_table)
+            return false;
+        std::copy_n(jpeg.comp_info[c].quant_table->quantval, DCTSIZE2, component.steps.data());
+        std::int16_t* out = component.coefficients.data();
+        for (const auto& [left, top] : blocks.units)
+            for (int row = 0; row < component.down; ++row, out += component.across * DCTSIZE2) {
+                const int y = top / blocks.unitHeight * component.down + row;
+                const JBLOCK* const blockRow = jpeg.mem->access_virt_barray(reinterpret_cast<j_common_ptr>(&jpeg),
+                                                                            arrays[c], JDIMENSION(y), 1, FALSE)[0];
+                std::copy_n(blockRow[left / blocks.unitWidth * component.across], component.across * DCTSIZE2, out);
+            }
+    }
+    return true;
+}
+
+} // namespace
+
+std::optional<JpegBlocks> readJpegBlocks(std::span<const std::byte> bytes, const LoadLimits& limits,
+                                         std::size_t maxUnits)
+{
+    Decoder decoder;
+    if (!readHeader(decoder, bytes) || checkScans(decoder.jpeg, bytes, {}, limits, /*buffered*/ true)
+        || (decoder.jpeg.jpeg_color_space != JCS_YCbCr && decoder.jpeg.jpeg_color_space != JCS_RGB)
+        || checkImageSize(int(decoder.jpeg.image_width), int(decoder.jpeg.image_height), PixelType::unorm8, {}, limits))
+        return std::nullopt;
+    JpegBlocks blocks = placeUnits(decoder.jpeg, maxUnits);
+    return readUnits(decoder, blocks) ? std::optional(std::move(blocks)) : std::nullopt;
 }
 
 namespace {

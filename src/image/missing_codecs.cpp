@@ -40,6 +40,11 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte>, const std::str
     return std::nullopt;
 }
 
+std::optional<JpegBlocks> readJpegBlocks(std::span<const std::byte>, const LoadLimits&, std::size_t)
+{
+    return std::nullopt;
+}
+
 std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image&, std::span<const std::byte>, int&)
 {
     return std::nullopt;

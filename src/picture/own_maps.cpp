@@ -31,7 +31,9 @@ Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Mate
     if (!hasUv)
         return inputError(
             fmt::format("{}: expected a mesh with texture coordinates to show {} on; found none", scene.name, file));
-    return readImage(file, limitsFor(memory));
+    LoadLimits limits = limitsFor(memory);
+    limits.keepsJpeg = slot == &Material::normalMap; // for lint
+    return readImage(file, limits);
 }
 
 Result<StatedConvention> conventionOf(const OwnMaps& maps)

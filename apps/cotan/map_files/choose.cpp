@@ -11,6 +11,7 @@
 #include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
+#include "map_files/jpeg_cost.hpp"
 #include "maps/texels.hpp"
 
 namespace cotan::app {
@@ -112,8 +113,10 @@ std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention)
     return costs;
 }
 
-std::optional<double> costBefore(const Image& map, const Convention& convention)
+std::optional<CostBefore> costBefore(const Image& map, const Convention& convention)
 {
+    if (const auto degrees = jpegCost(map))
+        return CostBefore{"jpeg", *degrees};
     constexpr int kLeast = 32, kSquare = 24;
     const auto code = codeNamed(map.blocks);
     if (!code || *code == TexelCode::rgba8 || *code == TexelCode::bc3 || map.width < kLeast || map.height < kLeast)
@@ -126,7 +129,7 @@ std::optional<double> costBefore(const Image& map, const Convention& convention)
         unswizzle(sample, swizzleOf(sample));
     }
     const auto cost = costOfFormat(sample, read, map.blocks);
-    return cost ? std::optional(cost->meanDegrees) : std::nullopt;
+    return cost ? std::optional(CostBefore{map.blocks, cost->meanDegrees}) : std::nullopt;
 }
 
 Result<ChosenFormat> chooseFormat(const Convention& to, const std::string& swizzle, const std::filesystem::path& file,

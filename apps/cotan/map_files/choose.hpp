@@ -54,11 +54,17 @@ Result<ChosenFormat> chooseFormat(const Convention& to, const std::string& swizz
 // Formats that this build cannot write are left out.
 std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention);
 
-// Estimates what the blocks of a map's file have cost it already, in degrees on average: what they cost what they hold,
-// on a grid that is half a block away, where none of the lines and planes fits that the blocks were fitted to. map: as
-// decoded from the file, read in `convention`; Image::blocks names the format. Large maps are sampled as by costsOf.
+// What the file of a map has cost it already.
+struct CostBefore {
+    std::string format; // a word of --compress, or "jpeg"
+    double meanDegrees = 0;
+};
+
+// Estimates that. A JPEG file, if it is in Image::jpeg: see jpegCost. Blocks: what they cost what they hold, on a grid
+// that is half a block away, where none of the lines and planes fits that the blocks were fitted to. map: as decoded
+// from the file, read in `convention`; Image::blocks names the format. Large maps are sampled as by costsOf.
 // Nothing for pixels, a map smaller than 32 x 32, formats that this build cannot write, and BC3, whose few codes hide
 // what was rounded to them.
-std::optional<double> costBefore(const Image& map, const Convention& convention);
+std::optional<CostBefore> costBefore(const Image& map, const Convention& convention);
 
 } // namespace cotan::app

@@ -16,7 +16,7 @@ namespace cotan {
 
 inline constexpr char kReaderWord[] = "read-for-parent"; // the reader's only argument
 inline constexpr int kNoMemoryCode = 71;                 // the reader's exit code if it runs out of memory
-inline constexpr std::uint32_t kReaderVersion = 4;       // of the protocol; both sides should be the same program
+inline constexpr std::uint32_t kReaderVersion = 5;       // of the protocol; both sides should be the same program
 
 // Maximum resources of the reader.
 struct ReaderBudget {
@@ -57,7 +57,7 @@ template<class W, class T> void exchangeRequest(W& w, T& request)
     w.choice(request.kind, ReaderKind::draco);
     exchangeAll(w, request.name, request.bytes, request.fileBytes, limits.fileBytes, limits.vertices, limits.triangles,
                 limits.nodes, limits.imageSide, limits.imageBytes, limits.allImageBytes, limits.imageBytesBeyond,
-                limits.sandbox.megabytes, limits.sandbox.seconds, request.parent);
+                limits.keepsJpeg, limits.sandbox.megabytes, limits.sandbox.seconds, request.parent);
 }
 
 // First value of a frame, and what follows.

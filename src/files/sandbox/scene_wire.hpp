@@ -13,7 +13,7 @@ template<class W, class T> void exchangeImage(W& w, T& image)
 {
     exchangeAll(w, image.name, image.width, image.height);
     w.choice(image.type, PixelType::float32);
-    exchangeAll(w, image.data, image.frame, image.channels, image.blocks);
+    exchangeAll(w, image.data, image.frame, image.channels, image.blocks, image.jpeg);
 }
 
 // Properties of an image that are known before its rows are read.

@@ -105,6 +105,7 @@ struct LoadLimits {
     Pixels pixels = Pixels::all; // of a glTF model
     Pose pose = Pose();          // likewise; other formats have no poses. Explicit: otherwise g++ 12 warns in callers
     Up up = Up::y;               // of a model
+    bool keepsJpeg = false;      // Image::jpeg receives the file
     std::string variant{};       // material variant of a glTF model, name or number; empty: the file's default
     Sandbox sandbox = defaultSandbox(); // program that reads other models and third-party image formats
     // Called with the number of bytes that are about to be decoded, after it was found to be within the limits; a

@@ -58,6 +58,7 @@ struct Image {
     int channels = 4;
     // The word of --compress for the blocks that the file holds. Empty: pixels, or blocks that no word names.
     std::string blocks = {};
+    std::vector<std::byte> jpeg = {}; // the file, if it is a JPEG and LoadLimits::keepsJpeg is set
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
     std::size_t bytesPerPixel() const { return 4 * bytesPerComponent(type); }
