@@ -17,8 +17,6 @@ namespace {
 // conditioning of the vectors: 1/sin 30 degrees for positions and again for uv, 1/cos 50 for n, 1/cos 55 for m. In the
 // worst case: 30 * 6e-8 * 2 * 2 * 1.6 * 1.7 rad = 1.1e-3 degrees.
 constexpr double kFloatDegrees = 1.2e-3;
-// The text in C++ double performs the operations of the portable text, except for GLM's order of sums.
-constexpr double kDoubleDegrees = 1e-9;
 // Fused forms add 1e-12 to m.z (fused.h), 6e-11 degrees; `gradient` adds 1e-15 to m.z times the area of the footprint,
 // which is at least about 1e-5 here: 6e-9 degrees.
 constexpr double kDoubleFusedDegrees = 1e-8;

@@ -5,6 +5,9 @@
 
 namespace cotan::test {
 
+// The text in C++ double performs the operations of the portable text, except for GLM's order of sums.
+inline constexpr double kDoubleDegrees = 1e-9;
+
 const std::vector<Case>& allCases();
 const std::vector<Sample>& allSamples();
 
