@@ -73,9 +73,9 @@ Image noiseMap(int side)
 }
 
 // The truth is the angle to the map before it was compressed, which the estimate does not see. On ten real maps the
-// estimate is within two fifths of it with whole chroma, and within a half with halved chroma, at qualities from 75 on;
-// nearly flat maps may be 0.2 degrees off (docs/explanation/compression.md). What is left is the shape of the
-// distributions, which are not quite Laplace's.
+// estimate is within two fifths of it with whole chroma, and within a half with halved chroma, at qualities from 75 on,
+// but for a map that had halved chroma before; nearly flat maps may be 0.2 degrees off
+// (docs/explanation/compression.md). What is left is the shape of the distributions, which are not quite Laplace's.
 TEST(JpegCost, isEstimatedFromTheCoefficients)
 {
     std::vector<std::pair<std::string, Image>> maps{{"waves", makeReliefMap(Relief::waves, 256)},

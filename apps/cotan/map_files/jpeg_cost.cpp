@@ -170,7 +170,8 @@ void expect(const JpegBlocks& file, std::array<Expected, 3>& expected)
                 if (groupOf(i) != group)
                     continue;
                 const std::vector<std::int16_t>& coefficients = file.components[c].coefficients;
-                Frequency& f = members.emplace_back(c, i, coefficients.size() / kFrequencies / file.units.size());
+                Frequency& f =
+                    members.emplace_back(Frequency{c, i, coefficients.size() / kFrequencies / file.units.size()});
                 for (std::size_t at = i; at < coefficients.size(); at += kFrequencies)
                     f.values.push_back(std::uint8_t(std::min(std::abs(int(coefficients[at])), kLargest)));
             }
@@ -243,7 +244,7 @@ Spectrum meanOf(const std::vector<Spectrum>& energies)
     return mean;
 }
 
-// The energy of a halved component over that of Y, at the frequencies that both store but the lowest.
+// The energy of a halved component over that of Y, at the frequencies that both store.
 double ratioToLuma(const Spectrum& halved, const Spectrum& luma, bool halfX, bool halfY)
 {
     // The waves of the large image that are seen as frequency u of the small one.
@@ -260,7 +261,7 @@ double ratioToLuma(const Spectrum& halved, const Spectrum& luma, bool halfX, boo
     double sum = 0, expected = 0;
     for (int v = 0; v < 8; v += halfY ? 2 : 1)
         for (int u = 0; u < 8; u += halfX ? 2 : 1) {
-            if (u + v < 3)
+            if (u + v == 0) // energies lack the means
                 continue;
             sum += halved[std::size_t(8 * v + u)];
             for (const auto& [y, ky] : sources(halfY, v))
