@@ -93,7 +93,7 @@ struct Claim {
     int width = 0, height = 0, channels = 0;
     PixelType type = PixelType::unorm8;
     bool alpha = false, whole = false;
-    std::vector<std::byte> data;
+    std::vector<std::byte> data, jpeg;
 };
 
 Claim claimed()
