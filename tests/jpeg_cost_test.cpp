@@ -47,8 +47,10 @@ Image decoded(const std::vector<std::byte>& file, bool keeps = true)
     return image ? *image : Image();
 }
 
-Image middleOf(const Image& whole, int side)
+// A square of at most `most` texels a side. whole: of type unorm8.
+Image middleOf(const Image& whole, int most)
 {
+    const int side = std::min({most, whole.width, whole.height});
     Image map = makeImage(side, side, whole.type);
     const int left = (whole.width - side) / 2, top = (whole.height - side) / 2;
     for (int y = 0; y < side; ++y)
@@ -73,8 +75,8 @@ Image noiseMap(int side)
 }
 
 // The truth is the angle to the map before it was compressed, which the estimate does not see. On ten real maps the
-// estimate is within two fifths of it with whole chroma, and within a half with halved chroma, at qualities from 75 on,
-// but for a map that had halved chroma before; nearly flat maps may be 0.2 degrees off
+// estimate is within two fifths of it with whole chroma, and within a half with halved chroma, at qualities from
+// 75 on, but for a map that had halved chroma before; nearly flat maps may be 0.2 degrees off
 // (docs/explanation/compression.md). What is left is the shape of the distributions, which are not quite Laplace's.
 TEST(JpegCost, isEstimatedFromTheCoefficients)
 {
