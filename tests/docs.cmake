@@ -1,5 +1,5 @@
 # Compares the documents with the tool, the sources and the measured tables.
-cotan_test(docs_test SLOW PageCommands.* Tutorials.*
+cotan_test(docs_test SLOW PageCommands.* Tutorials.* DocumentsOfModels.*
   SOURCES docs_test.cpp docs_models_test.cpp tutorials_test.cpp version_test.cpp
   LIBRARIES fmt::fmt nlohmann_json::nlohmann_json)
 target_compile_definitions(docs_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_VERSION="${PROJECT_VERSION}")
