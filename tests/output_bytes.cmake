@@ -10,7 +10,7 @@ if(Python3_FOUND)
   endforeach()
   add_test(NAME TwoRenderers.drawTheSame
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/two_renderers_test.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes/pictures.txt)
-  set_tests_properties(TwoRenderers.drawTheSame PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 COST 75)
+  set_tests_properties(TwoRenderers.drawTheSame PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 COST 75)
   cotan_slow(TwoRenderers.drawTheSame)
   if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize") # the sanitizers' library must be loaded first
     add_test(NAME FailingCalls.leaveCompleteOutputOrNone
