@@ -15,7 +15,7 @@ namespace cotan::test {
 
 // Opens the pages of the folder in one Chromium process. Returns their reports by the names they give themselves, or a
 // string with the reason if they cannot run. seconds: time limit of the browser.
-nlohmann::json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pages, int seconds = 120);
+nlohmann::json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pages, int seconds = 300);
 
 // Replaces each `word` by `value`.
 void put(std::string& text, const std::string& word, const std::string& value);
