@@ -293,7 +293,7 @@ TEST(HeightMap, ofTheUserTakesUvSetAndTransformOfEachChosenNormalMap)
         maps.material = chosen;
         mapped.meshes.push_back(mapped.meshes[0]);
         mapped.meshes[1].material = 1;
-        const Status done = applyOwnMaps(maps, kDefaultMemory, mapped);
+        const Status done = applyOwnMaps(maps, limitsFor(kDefaultMemory), mapped);
         ASSERT_TRUE(done) << done.error().message;
         for (int i = 0; i < 2; ++i) {
             const HeightMap& found = mapped.materials[std::size_t(i)].heightMap;
@@ -314,7 +314,7 @@ TEST(HeightMap, ofTheUserTakesUvSetAndTransformOfEachChosenNormalMap)
     Scene bare = sceneOf(grid(4, kLayouts[0].uv, flat));
     OwnMaps maps;
     maps.height = file.string();
-    ASSERT_TRUE(applyOwnMaps(maps, kDefaultMemory, bare));
+    ASSERT_TRUE(applyOwnMaps(maps, limitsFor(kDefaultMemory), bare));
     ASSERT_EQ(bare.warnings.size(), 1u);
     EXPECT_NE(bare.warnings[0].find("without a normal map"), std::string::npos);
     EXPECT_NEAR(bare.materials[0].heightMap.depth, 0.02 * 6 * std::sqrt(2.0), 1e-6); // of the diagonal

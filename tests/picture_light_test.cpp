@@ -170,7 +170,7 @@ TEST(PictureMaps, eachMapSetsItsSlotAndAFactorOfOne)
             OwnMaps maps;
             maps.*row.field = file;
             maps.material = material;
-            ASSERT_TRUE(applyOwnMaps(maps, 640, scene));
+            ASSERT_TRUE(applyOwnMaps(maps, limitsFor(640), scene));
             for (int i = 0; i < 2; ++i) {
                 const Material& m = scene.materials[std::size_t(i)];
                 const bool here = material < 0 || material == i;
@@ -217,21 +217,21 @@ TEST(PictureMaps, incompatibleOptionsNameTheBrokenRule)
           {words, ErrorKind::usage, "--convention: "},
           {missing, ErrorKind::input, "gone.png"}}) {
         Scene scene = twoMaterials();
-        const Status done = applyOwnMaps(row.maps, 640, scene);
+        const Status done = applyOwnMaps(row.maps, limitsFor(640), scene);
         ASSERT_FALSE(done) << row.said;
         EXPECT_EQ(done.error().kind, row.kind) << row.said;
         EXPECT_NE(done.error().message.find(row.said), std::string::npos) << done.error().message;
     }
     Scene plain = twoMaterials();
-    EXPECT_TRUE(applyOwnMaps({}, 640, plain));
+    EXPECT_TRUE(applyOwnMaps({}, limitsFor(640), plain));
     high.material = 1;
-    EXPECT_TRUE(applyOwnMaps(high, 640, plain));
+    EXPECT_TRUE(applyOwnMaps(high, limitsFor(640), plain));
     plain.meshes[0].texcoords[0].clear(); // the other mesh can show it
     OwnMaps all;
     all.baseColor = file;
-    EXPECT_TRUE(applyOwnMaps(all, 640, plain));
+    EXPECT_TRUE(applyOwnMaps(all, limitsFor(640), plain));
     all.material = 0;
-    const Status bare = applyOwnMaps(all, 640, plain);
+    const Status bare = applyOwnMaps(all, limitsFor(640), plain);
     ASSERT_FALSE(bare);
     EXPECT_EQ(bare.error().message,
               "two.obj: expected a mesh with texture coordinates to show " + file + " on; found none");
@@ -248,7 +248,7 @@ TEST(PictureMaps, conventionAloneAppliesToTheMapsOfTheModel)
         OwnMaps maps;
         maps.convention = "directx";
         maps.material = material;
-        ASSERT_TRUE(applyOwnMaps(maps, 640, scene));
+        ASSERT_TRUE(applyOwnMaps(maps, limitsFor(640), scene));
         for (int i = 0; i < 2; ++i)
             EXPECT_EQ(scene.materials[std::size_t(i)].normalFormat.greenUp, material >= 0 && material != i) << material;
     }

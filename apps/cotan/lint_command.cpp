@@ -95,7 +95,7 @@ Result<LintResult> lint(const LintJob& job, const CommonOptions& terminal)
 {
     Stopwatch watch;
     COTAN_TRY(scene, loadWithProgress(terminal, job.load, job.model));
-    COTAN_CHECK(applyOwnMaps(job.maps, job.memory, *scene));
+    COTAN_CHECK(applyOwnMaps(job.maps, job.load, *scene));
     LintResult done;
     done.scene = *std::move(scene);
     done.loadSeconds = watch.lap();

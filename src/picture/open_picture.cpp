@@ -262,7 +262,7 @@ void derive(const PictureOptions& options, const std::string& show, const std::v
 Result<std::vector<std::optional<Frame>>> prepareScene(const PictureOptions& options, const std::string& show,
                                                        std::initializer_list<FrameChoice> choices, Scene& scene)
 {
-    COTAN_CHECK(applyOwnMaps(options.maps, options.memory, scene, show));
+    COTAN_CHECK(applyOwnMaps(options.maps, limitsFor(options.memory), scene, show));
     auto frames = resolved(options, choices, scene);
     derive(options, show, frames, scene);
     return frames;
@@ -285,7 +285,7 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
         picture.scene.reach = sweptPoints(picture.scene);
     if (options.edges != Edges::none)
         picture.edges = surfaceEdges(picture.scene);
-    COTAN_CHECK(applyOwnMaps(options.maps, options.memory, picture.scene, options.show));
+    COTAN_CHECK(applyOwnMaps(options.maps, limitsFor(options.memory), picture.scene, options.show));
     picture.frames = resolved(options, frames, picture.scene);
     if (picture.animated && inspectionFromName(options.show))
         picture.inspected = {picture.scene.materials, picture.scene.images};

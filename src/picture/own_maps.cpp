@@ -20,7 +20,7 @@ namespace cotan {
 
 namespace {
 
-Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Material::*slot, int memory,
+Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Material::*slot, const LoadLimits& limits,
                       const Scene& scene)
 {
     // Whether any mesh with a chosen material has the uv set that the image is sampled with.
@@ -31,8 +31,6 @@ Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Mate
     if (!hasUv)
         return inputError(
             fmt::format("{}: expected a mesh with texture coordinates to show {} on; found none", scene.name, file));
-    LoadLimits limits = limitsFor(memory);
-    limits.keepsJpeg = slot == &Material::normalMap; // for lint
     return readImage(file, limits);
 }
 
@@ -64,10 +62,10 @@ Status reinterpretNormalMaps(const OwnMaps& maps, Scene& scene)
     return Done{};
 }
 
-Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
+Status applyNormalMap(const OwnMaps& maps, const LoadLimits& limits, Scene& scene)
 {
     COTAN_TRY(stated, conventionOf(maps));
-    COTAN_TRY(image, readFor(maps, maps.normal, &Material::normalMap, memory, scene));
+    COTAN_TRY(image, readFor(maps, maps.normal, &Material::normalMap, limits, scene));
     COTAN_TRY(convention, maps::conventionOf(*stated, maps.normal, image->channels, "--convention"));
     if (!stated->channels) // x and y in three channels with constant blue: no such normals exist
         completeNormals(*image);
@@ -124,9 +122,9 @@ Image storedHeights(const Image& image, const HeightRange& range)
     return stored;
 }
 
-Status applyHeightMap(const OwnMaps& maps, int memory, Scene& scene)
+Status applyHeightMap(const OwnMaps& maps, const LoadLimits& limits, Scene& scene)
 {
-    COTAN_TRY(image, readFor(maps, maps.height, &Material::normalMap, memory, scene));
+    COTAN_TRY(image, readFor(maps, maps.height, &Material::normalMap, limits, scene));
     const HeightRange range = heightRange(*image);
     const Bounds box = bounds(scene);
     const double depth = maps.heightDepth   ? double(*maps.heightDepth)
@@ -153,11 +151,11 @@ Status applyHeightMap(const OwnMaps& maps, int memory, Scene& scene)
     return Done{};
 }
 
-Status applyMask(const OwnMaps& maps, int memory, Scene& scene)
+Status applyMask(const OwnMaps& maps, const LoadLimits& limits, Scene& scene)
 {
     if (maps.mask.empty())
         return usageError("--view mask: expected --mask FILE with it; found none");
-    COTAN_TRY(image, readFor(maps, maps.mask, &Material::normalMap, memory, scene));
+    COTAN_TRY(image, readFor(maps, maps.mask, &Material::normalMap, limits, scene));
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material& m = scene.materials[i];
         m.baseColorMap = m.normalMap;
@@ -169,7 +167,7 @@ Status applyMask(const OwnMaps& maps, int memory, Scene& scene)
 
 } // namespace
 
-Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene, const std::string& show)
+Status applyOwnMaps(const OwnMaps& maps, const LoadLimits& limits, Scene& scene, const std::string& show)
 {
     const bool any = std::ranges::any_of(maps.files(), [](const std::string& file) { return !file.empty(); });
     const bool reinterprets = maps.normal.empty() && !maps.convention.empty();
@@ -183,7 +181,7 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene, const std::st
     if (reinterprets)
         COTAN_CHECK(reinterpretNormalMaps(maps, scene));
     if (!maps.normal.empty())
-        COTAN_CHECK(applyNormalMap(maps, memory, scene));
+        COTAN_CHECK(applyNormalMap(maps, limits, scene));
     struct OwnMap {
         const std::string& file;
         Texture Material::*slot;
@@ -196,12 +194,12 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene, const std::st
     for (const auto& [file, slot, change] : others) {
         if (file.empty())
             continue;
-        COTAN_TRY(image, readFor(maps, file, slot, memory, scene));
+        COTAN_TRY(image, readFor(maps, file, slot, limits, scene));
         assignImage(scene, std::move(*image), slot, maps.material, change);
     }
     if (!maps.height.empty())
-        COTAN_CHECK(applyHeightMap(maps, memory, scene));
-    return show == "mask" ? applyMask(maps, memory, scene) : Status(Done{});
+        COTAN_CHECK(applyHeightMap(maps, limits, scene));
+    return show == "mask" ? applyMask(maps, limits, scene) : Status(Done{});
 }
 
 } // namespace cotan

@@ -125,14 +125,14 @@ struct PictureOptions {
 
 // ---- from options to an image --------------------------------------------------------------
 
-// Replaces maps of the scene's materials by the given ones; does nothing if none is given. memory: MiB for one image.
+// Replaces maps of the scene's materials by the given ones; does nothing if none is given. limits: for each image.
 // show: the view. In "mask" the mask becomes the only colour map, with the uv set and transform of the normal map.
 // Factors of a material that would scale a new map (base colour, metallic, roughness, occlusion strength) become 1.
 // A height map gets the uv set and transform of the normal map; one with a single value, or a depth of 0, is left out.
 // Errors: ErrorKind::usage for an invalid or non-tangent-space convention, a material out of range, or options without
 // a map, or "mask" without a mask; ErrorKind::input if an image cannot be read or no mesh that would show it has
 // texture coordinates.
-Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene, const std::string& show = "");
+Status applyOwnMaps(const OwnMaps& maps, const LoadLimits& limits, Scene& scene, const std::string& show = "");
 
 // Returns the model as read, the shape or the built-in scene, without the options' maps and without derived attributes.
 // Errors: as loadScene and checkTrianglesDrawn.
