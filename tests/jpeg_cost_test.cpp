@@ -18,6 +18,7 @@
 #include "map_files/choose.hpp"
 #include "map_files/jpeg_cost.hpp"
 #include "run_tool.hpp"
+#include "scene_of_maps.hpp"
 #include "test_data.hpp"
 
 namespace cotan::test {
@@ -187,15 +188,8 @@ TEST(JpegCost, lintNamesWhatTheJpegsOfAModelHaveCost)
     const TemporaryFolder folder;
     Scene scene;
     const std::vector<Image> maps{makeReliefMap(Relief::waves, 128), noiseMap(128), makeReliefMap(Relief::domes, 128)};
-    for (const Image& map : maps) {
-        scene.images.push_back(map);
-        scene.images.back().name = "map " + std::to_string(scene.images.size());
-        scene.materials.emplace_back().normalMap.image = int(scene.images.size()) - 1;
-        Mesh mesh = makePlane(1, 1, 1);
-        mesh.material = int(scene.materials.size()) - 1;
-        scene.meshes.push_back(mesh);
-        scene.instances.push_back({"", int(scene.meshes.size()) - 1, glm::mat4(1)});
-    }
+    for (const Image& map : maps)
+        addPlaneWith(map, "map " + std::to_string(scene.images.size() + 1), scene);
     auto document = gltfDocumentOf(scene);
     ASSERT_TRUE(document);
     std::array<double, 2> truths{};

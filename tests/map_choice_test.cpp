@@ -17,6 +17,7 @@
 #include "map_files/choose.hpp"
 #include "maps/textures/texel_code.hpp"
 #include "run_tool.hpp"
+#include "scene_of_maps.hpp"
 #include "test_data.hpp"
 
 namespace cotan::test {
@@ -241,15 +242,8 @@ TEST(MapChoice, lintNamesWhatBlocksWouldCost)
         ASSERT_TRUE(writeImage(folder / "waves.png", makeReliefMap(Relief::waves, side)));
         ASSERT_TRUE(writeImage(folder / "domes.png", makeReliefMap(Relief::domes, side)));
         Scene scene;
-        for (const char* map : {"waves.png", "domes.png"}) {
-            scene.images.push_back(*readImage(folder / map));
-            scene.images.back().name = map;
-            scene.materials.emplace_back().normalMap.image = int(scene.images.size()) - 1;
-            Mesh mesh = makePlane(1, 1, 1);
-            mesh.material = int(scene.materials.size()) - 1;
-            scene.meshes.push_back(mesh);
-            scene.instances.push_back({"", int(scene.meshes.size()) - 1, glm::mat4(1)});
-        }
+        for (const char* map : {"waves.png", "domes.png"})
+            addPlaneWith(*readImage(folder / map), map, scene);
         auto document = gltfDocumentOf(scene);
         ASSERT_TRUE(document);
         ASSERT_TRUE(writeGltf(*document, folder / "two.glb"));
@@ -346,15 +340,8 @@ TEST(MapChoice, lintNamesWhatTheBlocksOfAModelHaveCost)
 {
     const TemporaryFolder folder;
     Scene scene;
-    for (const Relief relief : {Relief::waves, Relief::domes}) {
-        scene.images.push_back(makeReliefMap(relief, 64));
-        scene.images.back().name = relief == Relief::waves ? "waves" : "domes";
-        scene.materials.emplace_back().normalMap.image = int(scene.images.size()) - 1;
-        Mesh mesh = makePlane(1, 1, 1);
-        mesh.material = int(scene.materials.size()) - 1;
-        scene.meshes.push_back(mesh);
-        scene.instances.push_back({"", int(scene.meshes.size()) - 1, glm::mat4(1)});
-    }
+    addPlaneWith(makeReliefMap(Relief::waves, 64), "waves", scene);
+    addPlaneWith(makeReliefMap(Relief::domes, 64), "domes", scene);
     auto document = gltfDocumentOf(scene);
     ASSERT_TRUE(document);
     ASSERT_TRUE(writeGltf(*document, folder / "two.glb"));
