@@ -41,9 +41,10 @@ inline std::size_t threadsFor(std::size_t count, std::size_t minimum, int wanted
 {
     if (!kHasThreads)
         return 1;
+    static const unsigned cores = std::thread::hardware_concurrency(); // opens a file each time
     const std::size_t maximum = wanted > 0 ? std::size_t(wanted)
         : threadLimit > 0                  ? std::size_t(threadLimit)
-                                           : std::max(1u, std::thread::hardware_concurrency());
+                                           : std::max(1u, cores);
     return std::clamp<std::size_t>(count / minimum, 1, maximum);
 }
 

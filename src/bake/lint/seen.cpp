@@ -2,11 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "core/loops.hpp"
 #include "lint_parts.hpp"
 
 namespace cotan::lint {
@@ -15,18 +19,21 @@ namespace {
 
 constexpr std::size_t kDirectionCount = 14, kMaxSide = 512, kMinSide = 16; // depth buffers, and their sides in pixels
 constexpr double kMinCosine = 0.05;                                        // grazing faces show next to nothing
+constexpr std::size_t kFewTriangles = 100'000;
 
 struct DepthBuffer {
     glm::dvec3 across, up, toEye; // unit, perpendicular to one another
-    glm::dvec2 low;
+    glm::dvec3 middle;
     double pixel = 1;
     std::size_t side = 0;
-    std::vector<double> depth; // larger is nearer
+    std::vector<float> depth; // from the middle; larger is nearer
 
     // x and y in pixels, the depth in units of the surface.
     glm::dvec3 projected(glm::dvec3 p) const
     {
-        return {(glm::dot(p, across) - low.x) / pixel, (glm::dot(p, up) - low.y) / pixel, glm::dot(p, toEye)};
+        const double half = 0.5 * double(side);
+        p -= middle;
+        return {glm::dot(p, across) / pixel + half, glm::dot(p, up) / pixel + half, glm::dot(p, toEye)};
     }
     std::size_t at(double x, double y) const
     {
@@ -35,8 +42,8 @@ struct DepthBuffer {
     }
     void put(double x, double y, double z)
     {
-        double& d = depth[at(x, y)];
-        d = std::max(d, z);
+        float& d = depth[at(x, y)];
+        d = std::max(d, float(z));
     }
 };
 
@@ -57,24 +64,23 @@ DepthBuffer depthBufferFrom(glm::dvec3 toEye, glm::dvec3 middle, double radius, 
     toEye = glm::normalize(toEye);
     const glm::dvec3 other = std::abs(toEye.y) > 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const glm::dvec3 across = glm::normalize(glm::cross(other, toEye)), up = glm::cross(toEye, across);
-    const glm::dvec2 low = glm::dvec2(glm::dot(middle, across), glm::dot(middle, up)) - radius;
-    const double nothing = -std::numeric_limits<double>::infinity();
-    return {across, up, toEye, low, 2 * radius / double(side), side, std::vector<double>(side * side, nothing)};
+    const float nothing = -std::numeric_limits<float>::infinity();
+    return {across, up, toEye, middle, 2 * radius / double(side), side, std::vector<float>(side * side, nothing)};
 }
 
-// Depth buffers from the faces and the corners of a cube.
-std::vector<DepthBuffer> depthBuffersAround(glm::dvec3 middle, double radius, std::size_t side)
+// Directions to the faces and the corners of a cube.
+std::vector<glm::dvec3> directionsAround()
 {
-    std::vector<DepthBuffer> buffers;
-    buffers.reserve(kDirectionCount);
+    std::vector<glm::dvec3> directions;
+    directions.reserve(kDirectionCount);
     for (int i = 0; i < 27; ++i) {
         const glm::dvec3 direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
         if (const double squared = glm::dot(direction, direction); squared != 1 && squared != 3)
             continue; // the edges and the centre of the cube
         // Slightly askew, so that no wall of a house is seen exactly edge-on.
-        buffers.push_back(depthBufferFrom(direction + glm::dvec3(0.05, 0.03, -0.04), middle, radius, side));
+        directions.push_back(direction + glm::dvec3(0.05, 0.03, -0.04));
     }
-    return buffers;
+    return directions;
 }
 
 // Draws all pixels whose centres the triangle covers, and the one that contains its middle.
@@ -82,20 +88,30 @@ void draw(const std::array<glm::dvec3, 3>& corners, DepthBuffer& buffer)
 {
     const glm::dvec3 a = buffer.projected(corners[0]), b = buffer.projected(corners[1]),
                      c = buffer.projected(corners[2]);
-    const glm::dvec3 middle = (a + b + c) / 3.0;
+    const glm::dvec3 middle = (a + b + c) / 3.0, ab = b - a, ac = c - a;
     buffer.put(middle.x, middle.y, middle.z);
-    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    const double area = ab.x * ac.y - ab.y * ac.x;
     if (area == 0 || !std::isfinite(area))
         return;
+    // The barycentric coordinates of b and c grow by x and y of these per pixel, that of a by what is left.
+    const glm::dvec2 ofB = glm::dvec2(ac.y, -ac.x) / area, ofC = glm::dvec2(-ab.y, ab.x) / area, ofA = -ofB - ofC;
+    const double slope = ofB.x * ab.z + ofC.x * ac.z; // of the depth along a row
     const auto first = [](double x, double y, double z) { return std::ceil(std::min({x, y, z}) - 0.5) + 0.5; };
-    const double right = std::max({a.x, b.x, c.x}), top = std::max({a.y, b.y, c.y});
-    for (double y = first(a.y, b.y, c.y); y <= top; ++y)
-        for (double x = first(a.x, b.x, c.x); x <= right; ++x) {
-            const double wb = ((x - a.x) * (c.y - a.y) - (y - a.y) * (c.x - a.x)) / area;
-            const double wc = ((b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x)) / area;
-            if (wb >= 0 && wc >= 0 && wb + wc <= 1)
-                buffer.put(x, y, a.z + wb * (b.z - a.z) + wc * (c.z - a.z));
+    const double left = first(a.x, b.x, c.x), right = std::max({a.x, b.x, c.x}), top = std::max({a.y, b.y, c.y});
+    for (double y = first(a.y, b.y, c.y); y <= top; ++y) {
+        const double b0 = (left - a.x) * ofB.x + (y - a.y) * ofB.y, c0 = (left - a.x) * ofC.x + (y - a.y) * ofC.y;
+        double begin = 0, end = right - left; // pixels from `left`
+        for (const auto& [atLeft, growth] : {std::pair(b0, ofB.x), {c0, ofC.x}, {1 - b0 - c0, ofA.x}}) {
+            if (growth > 0)
+                begin = std::max(begin, std::ceil(-atLeft / growth));
+            else if (growth < 0)
+                end = std::min(end, -atLeft / growth);
+            else if (atLeft < 0)
+                end = -1;
         }
+        for (double x = begin; x <= end; ++x)
+            buffer.put(left + x, y, a.z + b0 * ab.z + c0 * ac.z + x * slope);
+    }
 }
 
 // Eight pixels per point along each axis; fewer if hundreds of triangles overlap, so that drawing them stays within
@@ -134,27 +150,46 @@ std::vector<double> visibility(const MappedSurface& s, const std::vector<MeshPoi
     const double radius = glm::length(high - low) / 2 * 1.01;
     if (!(radius > 0) || !std::isfinite(radius))
         return std::vector<double>(points.size(), 1);
-    std::vector<DepthBuffer> buffers =
-        depthBuffersAround((low + high) / 2.0, radius, sideFor(points.size(), area, radius, maxPixels));
+    const glm::dvec3 middle = (low + high) / 2.0;
+    const std::size_t side = sideFor(points.size(), area, radius, maxPixels);
+    const std::vector<glm::dvec3> directions = directionsAround();
     const auto cosineOf = [&](glm::dvec3 face, const DepthBuffer& buffer) {
         const double cosine = glm::dot(face, buffer.toEye);
         return bothSides ? std::abs(cosine) : cosine;
     };
-    for (std::size_t f = 0; f < s.triangleCount(); ++f) { // into all buffers at once, so that triangles are not stored
-        const glm::dvec3 face = outwardNormal(s, f);
-        const std::array<glm::dvec3, 3> corners{s.position(3 * f), s.position(3 * f + 1), s.position(3 * f + 2)};
-        for (DepthBuffer& buffer : buffers)
-            if (cosineOf(face, buffer) > 0)
-                draw(corners, buffer);
-    }
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        const std::size_t a = 3 * points[k].triangle;
-        const glm::dvec3 face = outwardNormal(s, points[k].triangle), by = points[k].barycentric;
-        const glm::dvec3 position = s.position(a) * by.x + s.position(a + 1) * by.y + s.position(a + 2) * by.z;
-        for (const DepthBuffer& buffer : buffers)
-            if (const double cosine = cosineOf(face, buffer); cosine > kMinCosine)
-                weights[k] += isVisible(buffer, position, cosine) ? 1 : 0;
-    }
+    std::mutex mutex;
+    const auto look = [&](std::size_t begin, std::size_t end) { // from these directions
+        std::vector<DepthBuffer> buffers;
+        for (std::size_t i = begin; i < end; ++i)
+            buffers.push_back(depthBufferFrom(directions[i], middle, radius, side));
+        for (std::size_t f = 0; f < s.triangleCount(); ++f) {
+            const glm::dvec3 face = outwardNormal(s, f);
+            const std::array<glm::dvec3, 3> corners{s.position(3 * f), s.position(3 * f + 1), s.position(3 * f + 2)};
+            for (DepthBuffer& buffer : buffers)
+                if (cosineOf(face, buffer) > 0)
+                    draw(corners, buffer);
+        }
+        std::vector<std::uint8_t> seen(points.size(), 0);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const std::size_t a = 3 * points[k].triangle;
+            const glm::dvec3 face = outwardNormal(s, points[k].triangle), by = points[k].barycentric;
+            const glm::dvec3 position = s.position(a) * by.x + s.position(a + 1) * by.y + s.position(a + 2) * by.z;
+            for (const DepthBuffer& buffer : buffers)
+                if (const double cosine = cosineOf(face, buffer);
+                    cosine > kMinCosine && isVisible(buffer, position, cosine))
+                    ++seen[k];
+        }
+        const std::lock_guard lock(mutex);
+        for (std::size_t k = 0; k < points.size(); ++k)
+            weights[k] += seen[k];
+    };
+    // Few triangles are gone through once for each direction, so that a buffer stays in the processor's cache; many
+    // once for all directions of a thread.
+    const std::size_t threads = std::min(threadsFor(points.size(), 1000), kDirectionCount);
+    const std::size_t parts = s.triangleCount() < kFewTriangles ? kDirectionCount : threads;
+    runTasks(parts, threads, [&](std::size_t i) {
+        look(partBegin(kDirectionCount, i, parts), partBegin(kDirectionCount, i + 1, parts));
+    });
     if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; }))
         std::fill(weights.begin(), weights.end(), 1); // inside out, or hidden by itself: all points count alike
     return weights;
