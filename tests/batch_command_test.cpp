@@ -279,7 +279,7 @@ TEST_F(BatchCommand, wrongArgumentsGetOneLineBeforeAnythingRuns)
         {{"jobs.jsonl", "-o", "r.html", "--limit-processor-time", "-1"}, 1, "--limit-processor-time"},
         {{"jobs.jsonl", "-o", "r.html", "--retries", "many"}, 1, "--retries"},
         {{"jobs.jsonl", "-o", "r.html", "--store", "a.png"}, 4, "cannot create this folder"},
-        {{"words.jsonl", "-o", "r.html"}, 2, "words.jsonl:2: map convert needs --from WORDS"},
+        {{"words.jsonl", "-o", "r.html"}, 2, "words.jsonl:2: map convert needs --to WORDS"},
         {{"batch.jsonl", "-o", "r.html"}, 2, "batch.jsonl:1: batch cannot run in a batch"},
         {{"view.jsonl", "-o", "r.html"}, 2, "view cannot run in a batch"},
         {{"stdout.jsonl", "-o", "r.html"}, 2, "--json -: expected a file"},

@@ -320,6 +320,66 @@ TEST(CBuffers, mapsAreConvertedWithinTheirBufferAndDirectXFlipsOnlyGreen)
     }
 }
 
+// The slopes of two waves, of heights 0.3 and 0.17 by their number; green down: about 128, the exact zero, or 127.5.
+TEST(CBuffers, autoFindsHowAMapIsStored)
+{
+    constexpr int kSide = 128;
+    constexpr std::size_t kBytes = 4 * kSide * kSide;
+    const auto relief = [](bool greenUp, double zero) {
+        std::vector<std::uint8_t> map(kBytes, 255);
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const double a = std::cos((3 * x - 5 * y) * 2 * std::numbers::pi / kSide + 1),
+                             b = std::cos((7 * x + 2 * y) * 2 * std::numbers::pi / kSide);
+                const double nx = -0.9 * a - 1.19 * b, ny = 1.5 * a - 0.34 * b, length = std::hypot(nx, ny, 1);
+                std::uint8_t* const texel = map.data() + 4 * (std::size_t(y) * kSide + std::size_t(x));
+                const double unit[] = {nx / length, (greenUp ? -ny : ny) / length, 1 / length};
+                for (int c = 0; c < 3; ++c)
+                    texel[c] = std::uint8_t(std::lround(zero + unit[c] * (zero == 128 ? 127 : 127.5)));
+            }
+        return map;
+    };
+    const auto converted = [&](std::vector<std::uint8_t> pixels, const char* from, const char* to) {
+        const cotan_image_view map = pictureOf(pixels.data(), kSide, kSide);
+        Guarded<std::uint8_t> bytes(kBytes);
+        cotan_image_view out = pictureOf(bytes.data(), kSide, kSide);
+        EXPECT_EQ(cotan_map_convert(&map, from, to, &out, message, sizeof message), COTAN_OK) << message;
+        return std::vector<std::uint8_t>(bytes.data(), bytes.data() + kBytes);
+    };
+    const auto up = relief(true, 128), down = relief(false, 128), biased = relief(false, 127.5);
+    EXPECT_EQ(converted(up, "auto", "opengl"), up);
+    EXPECT_EQ(converted(down, "auto", "opengl"), converted(down, "directx", "opengl"));
+    EXPECT_NE(converted(down, "auto", "opengl"), down);
+    // A zero of 127.5 stays, unless the words name another.
+    EXPECT_EQ(converted(biased, "auto", "opengl"), converted(biased, "directx,biased", "opengl,biased"));
+    EXPECT_EQ(converted(biased, "auto", "opengl,exact"), converted(biased, "directx,biased", "opengl,exact"));
+    for (std::vector<std::uint8_t> pixels : {up, down}) {
+        const cotan_image_view map = pictureOf(pixels.data(), kSide, kSide);
+        std::vector<float> found(kSide * kSide), stated(found);
+        const char* const words = pixels == up ? "gltf,exact" : "gltf,exact,green-down";
+        ASSERT_EQ(cotan_map_to_height(&map, "auto", found.data(), message, sizeof message), COTAN_OK) << message;
+        ASSERT_EQ(cotan_map_to_height(&map, words, stated.data(), message, sizeof message), COTAN_OK) << message;
+        EXPECT_EQ(found, stated);
+        cotan_texture_options options{};
+        options.size = sizeof options;
+        std::string files[2];
+        for (int i = 0; i < 2; ++i) {
+            options.from = i == 0 ? "auto" : words;
+            cotan_bytes* made = nullptr;
+            ASSERT_EQ(cotan_map_texture(&map, &options, nullptr, &made, message, sizeof message), COTAN_OK) << message;
+            files[i].assign(static_cast<const char*>(cotan_bytes_data(made)), cotan_bytes_size(made));
+            cotan_bytes_free(made);
+        }
+        EXPECT_TRUE(files[0] == files[1]);
+    }
+    std::vector<std::uint8_t> flat(kBytes, 128);
+    const cotan_image_view map = pictureOf(flat.data(), kSide, kSide);
+    cotan_image_view out = map;
+    EXPECT_EQ(cotan_map_convert(&map, "auto", "opengl", &out, message, sizeof message), COTAN_INPUT);
+    EXPECT_NE(std::string(message).find("from: auto: expected a normal map whose green can be told"), std::string::npos)
+        << message;
+}
+
 TEST(CBuffers, imagesOfWrongSizeOrDepthAreRefused)
 {
     const auto pixels = filled(5, 3, {0.5f, 0.5f, 1});

@@ -231,6 +231,41 @@ TEST(MapFaults, autoRefusesAMapWhoseGreenCannotBeToldAndWritesNothing)
     }
 }
 
+// Two maps that differ in green, together in one command where it reads two.
+TEST(MapFaults, autoReadsMapsInEveryCommandAsTheirStatedConventionDoes)
+{
+    TemporaryFolder folder;
+    const Image up = randomRelief(17);
+    ASSERT_TRUE(writeImage(folder / "up.png", up));
+    ASSERT_TRUE(writeImage(folder / "down.png", brokenBy(randomRelief(18), [](glm::vec4& t) {
+                               t.y = (256 - std::round(t.y * 255)) / 255; // about 128, the exact zero
+                           })));
+    const std::string isUp = "gltf,exact", isDown = "gltf,exact,green-down";
+    const auto bytesOf = [&](std::vector<std::string> words, const std::string& output) {
+        words.insert(words.end(), {"-o", output, "--overwrite"});
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, 0) << run.err;
+        EXPECT_EQ(run.err, "") << ::testing::PrintToString(words);
+        return readWhole(folder / output);
+    };
+    for (const auto& [file, words] : {std::pair("up.png", isUp), {"down.png", isDown}})
+        for (const auto& [command, output] : {std::pair("mips", "o.ktx2"), {"to-height", "o.png"}})
+            EXPECT_EQ(bytesOf({"map", command, file, "--from", "auto"}, output),
+                      bytesOf({"map", command, file, "--from", words}, output))
+                << command << file;
+    const std::string heat = bytesOf({"map", "diff", "up.png", "down.png", "--from", isUp, "--to", isDown}, "o.png");
+    EXPECT_EQ(bytesOf({"map", "diff", "up.png", "down.png", "--from", "auto"}, "o.png"), heat);
+    EXPECT_EQ(bytesOf({"map", "diff", "up.png", "down.png", "--from", "auto", "--to", isDown}, "o.png"), heat);
+    EXPECT_EQ(bytesOf({"map", "diff", "up.png", "down.png", "--from", isUp, "--to", "auto"}, "o.png"), heat);
+    const std::string blend =
+        bytesOf({"map", "blend", "up.png", "down.png", "--from", isUp, "--detail-from", isDown}, "o.png");
+    EXPECT_EQ(bytesOf({"map", "blend", "up.png", "down.png", "--from", "auto"}, "o.png"), blend);
+    EXPECT_EQ(bytesOf({"map", "blend", "up.png", "down.png", "--from", isUp, "--detail-from", "auto"}, "o.png"), blend);
+    const ToolRun run = runTool({"map", "diff", "up.png", "down.png", "--from", "auto"}, folder.path());
+    EXPECT_NE(run.out.find("up.png: green: up"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("down.png: green: down"), std::string::npos) << run.out;
+}
+
 // If the zero of a map is 127.5, reversing green about 128 tilts normals by 0.45 degrees.
 TEST(MapFaults, greenOfABiasedMapIsReversedAbout127AndAHalf)
 {

@@ -34,12 +34,6 @@ Result<BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
 {
     using enum maps::BlendMode;
     BlendFileOptions options;
-    for (const auto& [words, option, target] :
-         {std::tuple(o.from, "--from", &options.base),
-          {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", &options.detail}}) {
-        COTAN_TRY(convention, parseConvention(words, option));
-        *target = *convention;
-    }
     if (!o.to.empty()) {
         COTAN_TRY(convention, parseWrittenConvention(o.to, "--to"));
         options.to = *convention;
@@ -52,6 +46,12 @@ Result<BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
                                         {"slopes", slopes},
                                         {"linear", linear}}));
     COTAN_TRY(tiles, parseTiles(o.tiles));
+    for (const auto& [words, option, file, target] :
+         {std::tuple(o.from, "--from", o.base, &options.base),
+          {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", o.detail, &options.detail}}) {
+        COTAN_TRY(source, sourceOf(o, words, option, file));
+        *target = source->stated;
+    }
     options.mode = *mode;
     options.strength = float(o.strength);
     options.tilesX = tiles->first, options.tilesY = tiles->second;
@@ -101,8 +101,8 @@ void declare(Arguments& a, MapBlendCommandOptions& o)
     a.option("--strength", o.strength, "factor on the detail's slopes").in("X").main();
     a.option("--tiles", o.tiles, "how often the detail repeats over the base").in("N[xM]").main();
     a.option("--mask", o.mask, "image whose red, 0 to 1, multiplies the strength").in("FILE").reads();
-    a.option("--from", o.from, "how the base is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
-    a.option("--detail-from", o.detailFrom, "how the detail is stored; as the base if not given")
+    addSource(a, "--from", o.from, "how the base is stored");
+    a.option("--detail-from", o.detailFrom, "how the detail is stored; the same words as for the base if not given")
         .in("WORDS")
         .offers(conventionWordList());
     a.option("--to", o.to, "how to store the blend; as the base if not given")

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "core/try.hpp"
 #include "image/format_table.hpp"
+#include "map_files/inspect.hpp"
 #include "map_options.hpp"
 #include "maps/textures/texel_code.hpp"
 
@@ -53,6 +54,52 @@ Result<StatedConvention> parseConvention(const std::string& text, const std::str
 {
     auto convention = parseStatedConvention(text);
     return convention ? convention : usageError(option + ": " + convention.error().message);
+}
+
+Result<MapSource> sourceOf(const MapOptions& o, const std::string& text, const std::string& option,
+                           const std::string& file, const Convention& to)
+{
+    if (text != kFound) {
+        const auto stated = parseStatedConvention(text);
+        return stated ? Result<MapSource>(MapSource{*stated})
+                      : usageError(fmt::format("{}: {}, or: {}", option, stated.error().message, kFound));
+    }
+    Damage damage;
+    const auto look = [&] {
+        return onFiles(o, "looking at " + file,
+                       [&](const FileOptions& files) { return greenOfFile(file, files, damage); });
+    };
+    auto found = look();
+    if (found)
+        damage = maps::damageOf(found->verdict.statistics);
+    if (damage.any())
+        found = look();
+    if (!found)
+        return found.error();
+    const auto stated = maps::foundConvention(found->verdict, to, damage);
+    if (!stated)
+        return inputError(fmt::format("{}: {} auto: expected a normal map whose green can be told; found: {}. Say how "
+                                      "it is stored: {} opengl or {} directx",
+                                      file, option, found->verdict.reason, option, option));
+    say(o, "{}: {}", file, linesOf(*found, file).front());
+    return MapSource{*stated, found->verdict};
+}
+
+Argument addSource(Arguments& command, const std::string& option, std::string& text, const std::string& about)
+{
+    std::vector<std::string> words = conventionWordList();
+    words.insert(words.begin(), kFound);
+    std::string damages;
+    for (const std::string& word : damageWords()) {
+        words.push_back(word);
+        damages += ' ' + word;
+    }
+    return command
+        .option(option, text,
+                about + ": auto, which finds it as map detect does; or " + conventionWords()
+                    + "; and for broken maps, which are repaired:" + damages)
+        .in("WORDS")
+        .offers(words);
 }
 
 Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option)

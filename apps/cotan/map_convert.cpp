@@ -15,7 +15,7 @@ namespace cotan::app {
 namespace {
 
 struct MapConvertCommandOptions : MapOptions {
-    std::string file, from, to;
+    std::string file, from = kFound, to;
     double strength = 1;
     bool normalise = false, dither = false, mips = false;
     std::string mesh, frame = "smooth", compress = "none", swizzle = "auto", device;
@@ -25,42 +25,15 @@ struct MapConvertCommandOptions : MapOptions {
     int material = -1;
 };
 
-// The value of --from for a map whose convention is found, as `map detect` finds it.
-constexpr const char* kFound = "auto";
-
-// Sets `from`, and repairs besides, as `map detect` advises. A zero of 127.5 stays unless --to names one.
-Status findSource(const MapConvertCommandOptions& o, ConvertFileOptions& options)
+// Repairs besides, as `map detect` advises.
+void repairAsFound(const MapConvertCommandOptions& o, const maps::GreenVerdict& verdict, ConvertFileOptions& options)
 {
     using Kind = maps::Fault::Kind;
-    Damage damage;
-    const auto look = [&] {
-        return onFiles(o, "looking at " + o.file,
-                       [&](const FileOptions& files) { return greenOfFile(o.file, files, damage); });
-    };
-    auto found = look();
-    if (found)
-        damage = maps::damageOf(found->verdict.statistics);
-    if (damage.any())
-        found = look();
-    if (!found)
-        return found.error();
-    const auto from = maps::foundConvention(found->verdict, options.to, damage);
-    if (!from)
-        return inputError(fmt::format("{}: --from auto: expected a normal map whose green can be told; found: {}. Say "
-                                      "how it is stored: --from opengl or --from directx",
-                                      o.file, found->verdict.reason));
-    say(o, "{}", linesOf(*found, o.file).front());
-    options.from = *from;
-    const std::vector<std::string> words = splitAtCommas(o.to);
-    const auto names = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
-    if (from->convention.expansion == Expansion::biased && !names("exact") && !names("signed"))
-        options.to.expansion = Expansion::biased;
-    for (const maps::Fault& fault : maps::faultsOf(found->verdict.statistics, &found->verdict)) {
+    for (const maps::Fault& fault : maps::faultsOf(verdict.statistics, &verdict)) {
         options.normalise = options.normalise || fault.kind == Kind::tooShort || fault.kind == Kind::tooLong;
         if (fault.kind == Kind::eightBitsIn16 && o.bits == "auto")
             options.bits = "8";
     }
-    return Done{};
 }
 
 // The budget of --max-degrees and --for, which go together.
@@ -92,17 +65,11 @@ void sayTried(const MapConvertCommandOptions& o, const ConvertedFile& done)
 
 Status run(const MapConvertCommandOptions& o)
 {
-    const auto stated = parseStatedConvention(o.from == kFound ? "opengl" : o.from);
-    if (!stated) {
-        constexpr std::string_view kExpected = "expected ";
-        std::string why = stated.error().message;
-        if (why.starts_with(kExpected))
-            why.insert(kExpected.size(), fmt::format("{}, or ", kFound));
-        return usageError("--from: " + why);
-    }
     COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
     COTAN_CHECK(needOutput(o, "convert"));
-    ConvertFileOptions options{.from = *stated,
+    COTAN_TRY(budget, budgetOf(o));
+    COTAN_TRY(source, sourceOf(o, o.from, "--from", o.file, *written));
+    ConvertFileOptions options{.from = source->stated,
                                .to = *written,
                                .bits = o.bits,
                                .compress = o.compress,
@@ -112,10 +79,11 @@ Status run(const MapConvertCommandOptions& o)
                                .normalise = o.normalise,
                                .dither = o.dither,
                                .mesh = {}};
-    COTAN_TRY(budget, budgetOf(o));
     options.budget = *budget;
-    if (o.from == kFound)
-        COTAN_CHECK(findSource(o, options));
+    if (source->verdict) {
+        options.to = *maps::convertedTo(options.from.convention, o.to);
+        repairAsFound(o, *source->verdict, options);
+    }
     const Convention& to = options.to;
     if (!o.mesh.empty()) {
         COTAN_TRY(frame, parseFrame(o.frame, "--frame"));
@@ -164,20 +132,7 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
     addMemoryOption(a, o.memory);
     a.group(HelpGroup::input);
     a.option("FILE", o.file, "the map").required().reads();
-    std::vector<std::string> words = conventionWordList();
-    words.insert(words.begin(), kFound);
-    std::string damages;
-    for (const std::string& word : damageWords()) {
-        words.push_back(word);
-        damages += ' ' + word;
-    }
-    a.option("--from", o.from,
-             "how the map is stored: auto, which finds it as map detect does and repairs what that names; or "
-                 + conventionWords() + "; and for broken maps, which are repaired:" + damages)
-        .in("WORDS")
-        .offers(words)
-        .required()
-        .main();
+    addSource(a, "--from", o.from, "how the map is stored").main();
     a.option("--to", o.to, "how to store the result; the same words")
         .in("WORDS")
         .offers(conventionWordList())
@@ -230,7 +185,7 @@ void addMapConvert(Arguments& map)
         {"convert",
          "Convert a normal map between conventions, or repair it: green, channels, sRGB, space, bits.",
          "the new map: " + imageEndings([](const ImageFormat& f) { return f.writes || f.texture; }),
-         {"cotan map convert rocks.png --from auto --to opengl -o out.png",
+         {"cotan map convert rocks.png --to opengl -o out.png",
           "cotan map convert rocks.png --from directx --to opengl -o out.png",
           "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"},
          /*needsOutput=*/true},

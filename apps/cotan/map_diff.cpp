@@ -16,10 +16,11 @@ struct MapDiffCommandOptions : MapOptions {
 Status run(const MapDiffCommandOptions& o)
 {
     COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}));
-    COTAN_TRY(from, parseConvention(o.from, "--from"));
-    COTAN_TRY(to, o.to.empty() ? from : parseConvention(o.to, "--to"));
-    const auto compared = onFiles(
-        o, o.a, [&](const FileOptions& files) { return compareFiles(o.a, *from, o.b, *to, o.output, files, o.mask); });
+    COTAN_TRY(from, sourceOf(o, o.from, "--from", o.a));
+    COTAN_TRY(to, o.to.empty() ? sourceOf(o, o.from, "--from", o.b) : sourceOf(o, o.to, "--to", o.b));
+    const auto compared = onFiles(o, o.a, [&](const FileOptions& files) {
+        return compareFiles(o.a, from->stated, o.b, to->stated, o.output, files, o.mask);
+    });
     if (!compared)
         return compared.error();
     const std::vector<std::string> warnings = warned(o, compared->notes);
@@ -48,8 +49,10 @@ void declare(Arguments& a, MapDiffCommandOptions& o)
     a.group(HelpGroup::input);
     a.option("A", o.a, "the first map").required().reads();
     a.option("B", o.b, "the second, of the same size").required().reads();
-    a.option("--from", o.from, "how A is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
-    a.option("--to", o.to, "how B is stored; as A if not given").in("WORDS").offers(conventionWordList());
+    addSource(a, "--from", o.from, "how A is stored");
+    a.option("--to", o.to, "how B is stored; the same words as for A if not given")
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--mask", o.mask, "image of the same size, whose black texels are left out, such as that of bake --mask")
         .in("FILE")
         .reads();

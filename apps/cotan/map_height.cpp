@@ -108,14 +108,14 @@ std::string inverseOptions(const MapToHeightCommandOptions& o, const ToHeightFil
 Status runTo(const MapToHeightCommandOptions& o)
 {
     COTAN_CHECK(needOutput(o, "to-height"));
-    COTAN_TRY(from, parseConvention(o.convention, "--from"));
     Words<maps::Kernel> kernels = {{"spectral", maps::Kernel::spectral}};
     kernels.insert(kernels.end(), kDifferences.begin(), kDifferences.end());
     COTAN_TRY(kernel, valueOf("--kernel", o.kernel, kernels));
     COTAN_TRY(metres, parseMetres(o.metres));
+    COTAN_TRY(from, sourceOf(o, o.convention, "--from", o.file));
     const auto done = onFiles(o, "solving for the height", [&](const FileOptions& files) {
         return heightFromNormalsFile(o.file, o.output,
-                                     {.from = *from,
+                                     {.from = from->stated,
                                       .kernel = *kernel,
                                       .boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic,
                                       .metres = *metres,
@@ -189,10 +189,7 @@ void declareTo(Arguments& a, MapToHeightCommandOptions& o)
     addMemoryOption(a, o.memory);
     a.group(HelpGroup::input);
     a.option("FILE", o.file, "the map").required().reads();
-    a.option("--from", o.convention, "how the map is stored: " + conventionWords())
-        .in("WORDS")
-        .offers(conventionWordList())
-        .main();
+    addSource(a, "--from", o.convention, "how the map is stored").main();
     a.option("--metres", o.metres, "size of the image in metres; heights are then in metres, without this in texels")
         .in("W[xH]")
         .main();

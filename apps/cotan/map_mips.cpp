@@ -21,7 +21,6 @@ Status run(const MapMipsCommandOptions& o)
 {
     const std::filesystem::path first = firstMipFile(o.output);
     COTAN_CHECK(needOutput(o, "mips", first));
-    COTAN_TRY(from, parseConvention(o.from, "--from"));
     std::optional<Convention> to;
     if (!o.to.empty()) {
         COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
@@ -30,10 +29,12 @@ Status run(const MapMipsCommandOptions& o)
     using enum maps::VarianceModel;
     COTAN_TRY(model,
               valueOf<maps::VarianceModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}}));
+    COTAN_TRY(from, sourceOf(o, o.from, "--from", o.file, to.value_or(Convention{})));
     const auto plan = [&](const std::filesystem::path& file) {
         return file == first ? Status(Done{}) : planOutput("-o", file);
     };
-    const MipFileOptions options{*from, to, *model, o.roughness, o.keepLengths, o.bits, o.compress, o.swizzle, plan};
+    const MipFileOptions options{from->stated, to,         *model,    o.roughness, o.keepLengths,
+                                 o.bits,       o.compress, o.swizzle, plan};
     const auto done = onFiles(o, "filtering levels",
                               [&](const FileOptions& files) { return writeMips(o.file, o.output, options, files); });
     if (!done)
@@ -65,7 +66,7 @@ void declare(Arguments& a, MapMipsCommandOptions& o)
     addMemoryOption(a, o.memory);
     a.group(HelpGroup::input);
     a.option("FILE", o.file, "the map").required().reads();
-    a.option("--from", o.from, "how the map is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
+    addSource(a, "--from", o.from, "how the map is stored");
     a.option("--to", o.to, "how to store the levels; as the map if not given")
         .in("WORDS")
         .offers(conventionWordList())

@@ -1,12 +1,14 @@
 // Shared by the subcommands of `cotan map`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common.hpp"
 #include "cotan/convention.hpp"
+#include "cotan/maps.hpp"
 #include "loading.hpp"
 #include "map_files/map_file.hpp"
 
@@ -25,7 +27,24 @@ void addDither(Arguments& command, bool& dither);
 // parseStatedConvention with the option's name in its error.
 Result<StatedConvention> parseConvention(const std::string& text, const std::string& option);
 
-// The same for a map that is written: its words must not describe a broken map.
+// How a map is stored, as an option states it.
+struct MapSource {
+    StatedConvention stated;
+    std::optional<maps::GreenVerdict> verdict = {}; // of `auto`
+};
+
+// The value of such options for a map whose convention is found, as `map detect` finds it.
+inline constexpr const char* kFound = "auto";
+
+// parseConvention, or for kFound what `map detect` finds, which is printed. to: as foundConvention. Errors: as
+// parseConvention and greenOfFile; ErrorKind::input if green cannot be told.
+Result<MapSource> sourceOf(const MapOptions& options, const std::string& text, const std::string& option,
+                           const std::string& file, const Convention& to = {});
+
+// Declares such an option. about: what it tells, as in "how the map is stored".
+Argument addSource(Arguments& command, const std::string& option, std::string& text, const std::string& about);
+
+// parseConvention for a map that is written: its words must not describe a broken map.
 Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option);
 
 // For commands that write a map: requires -o, and plans the output `file`, or that of -o if `file` is empty.
