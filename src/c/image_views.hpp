@@ -6,7 +6,6 @@
 #include "call.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/frame.hpp"
-#include "cotan/maps.hpp"
 #include "cotan/scene.hpp"
 
 struct cotan_image {
@@ -82,40 +81,12 @@ inline Convention conventionOf(const char* words, const char* name)
 }
 
 // Returns a convention that components of `type` can store.
-inline Convention storable(const Convention& convention, const char* name, PixelType type)
+inline Convention storableAs(const char* words, const char* name, PixelType type)
 {
+    const Convention convention = conventionOf(words, name);
     if (convention.expansion == Expansion::signedValues && type != PixelType::float32)
         fail(ErrorKind::usage, name, ": signed values need an image of 32 bits");
     return convention;
-}
-
-inline Convention storableAs(const char* words, const char* name, PixelType type)
-{
-    return storable(conventionOf(words, name), name, type);
-}
-
-// How a map is stored and what it becomes.
-struct FromTo {
-    Convention from, to;
-};
-
-// Reads both. from: words, or "auto": as cotan_map_green finds it in `image`; `to` is then maps::convertedTo. to: null
-// means `from`.
-inline FromTo conventionsOf(const Image& image, const char* from, const char* fromName, const char* to,
-                            const char* toName)
-{
-    if (word(from, fromName) != "auto") {
-        const Convention read = conventionOf(from, fromName);
-        return {read, to ? conventionOf(to, toName) : read};
-    }
-    const maps::GreenVerdict verdict = maps::greenOf(image);
-    const auto found = maps::foundConvention(verdict, to ? conventionOf(to, toName) : Convention{});
-    if (!found)
-        fail(ErrorKind::input, fromName,
-             ": auto: expected a normal map whose green can be told; found: ", verdict.reason);
-    if (found->damage.any())
-        fail(ErrorKind::input, fromName, ": auto: expected a map in order; red and green are exchanged");
-    return {found->convention, to ? valueOf(maps::convertedTo(found->convention, to), toName) : found->convention};
 }
 
 inline cotan_image_view imageViewOf(const Image& image)

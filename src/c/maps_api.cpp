@@ -57,11 +57,9 @@ cotan_status cotan_map_convert(const cotan_image_view* map, const char* from, co
         const Image image = imageOf(map, "map");
         const cotan_image_view& out = output(to_map, "to_map", image);
         maps::RecodeSettings settings;
+        settings.from = conventionOf(from, "from");
         settings.type = typeOf(out, "to_map");
-        word(to, "to");
-        const FromTo conventions = conventionsOf(image, from, "from", to, "to");
-        settings.from = conventions.from;
-        settings.to = storable(conventions.to, "to", settings.type);
+        settings.to = storableAs(to, "to", settings.type);
         require((settings.from.kind == MapKind::objectSpace) == (settings.to.kind == MapKind::objectSpace),
                 "to: expected a map of the same space; object space needs the mesh");
         maps::RecodeCounts counts;
@@ -93,7 +91,7 @@ cotan_status cotan_map_to_height(const cotan_image_view* map, const char* from, 
         const Image image = imageOf(map, "map");
         require(heights, "heights: expected an array, found null");
         maps::ToHeightSettings settings;
-        settings.from = conventionsOf(image, from, "from", nullptr, "").from;
+        settings.from = conventionOf(from, "from");
         const maps::Heights made = maps::heightFromNormals(image, settings);
         std::copy(made.texels.begin(), made.texels.end(), heights);
     });

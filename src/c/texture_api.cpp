@@ -25,9 +25,8 @@ cotan_status cotan_map_texture(const cotan_image_view* map, const cotan_texture_
             fail(ErrorKind::usage, "options.container: expected ktx2 or dds, found '", container, "'");
         image.frame = o.frame ? name(frameOr(o.frame, {}, "options.frame")) : "";
         const std::string from = wordOr(o.from, "gltf,exact");
-        const FromTo conventions = conventionsOf(image, from.c_str(), "options.from", o.to, "options.to");
-        maps::TextureSettings settings{.from = storable(conventions.from, "options.from", image.type),
-                                       .to = conventions.to,
+        maps::TextureSettings settings{.from = storableAs(from.c_str(), "options.from", image.type),
+                                       .to = conventionOf(wordOr(o.to, from.c_str()).c_str(), "options.to"),
                                        .compress = wordOr(o.compress, "none"),
                                        .swizzle = wordOr(o.swizzle, "auto"),
                                        .file = "map." + container,

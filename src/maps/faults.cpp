@@ -221,16 +221,6 @@ std::optional<StatedConvention> foundConvention(const GreenVerdict& verdict, con
     return found;
 }
 
-Result<Convention> convertedTo(const Convention& found, std::string_view words)
-{
-    auto to = parseConvention(words);
-    const std::string all = "," + std::string(words) + ",";
-    const auto names = [&](const char* word) { return all.find("," + std::string(word) + ",") != std::string::npos; };
-    if (to && found.expansion == Expansion::biased && !names("exact") && !names("signed"))
-        to->expansion = Expansion::biased;
-    return to;
-}
-
 std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults, const NormalStatistics& statistics)
 {
     if (faults.empty())

@@ -42,10 +42,7 @@ export function info(map: Image): {
   mean: [number, number, number];
 };
 
-/**
- * Converts a map from one convention to another. from: "auto" finds it as detect does, and throws if green cannot be
- * told. Default of bits: those of the map.
- */
+/** Converts a map from one convention to another. Default of bits: those of the map. */
 export function convertMap(map: Image, options?: { from?: Convention; to?: Convention; bits?: Bits }): Image;
 
 export function blend(base: Image, detail: Image, options?: {
@@ -59,7 +56,7 @@ export function blend(base: Image, detail: Image, options?: {
 /** Makes a normal map from red of a height map. scale: slope per unit of height and texel, one or [x, y]. */
 export function fromHeight(height: Image, options?: { scale?: number | [number, number]; to?: Convention; bits?: Bits }): Image;
 
-/** The height map, in texel widths and with mean 0, whose slopes are nearest to those of the normal map. from: as above. */
+/** The height map, in texel widths and with mean 0, whose slopes are nearest to those of the normal map. */
 export function toHeight(map: Image, options?: { from?: Convention }): { width: number; height: number; data: Float32Array };
 
 /** Mip levels, filtered as vectors, with the roughness that compensates for the lost variance of normals. */

@@ -13,7 +13,7 @@ export type Compress = 'none' | 'bc3' | 'bc5' | 'bc5-snorm' | 'bc7' | 'uastc' | 
 
 /** Makes a texture for GPUs: the file that `cotan map convert` writes with the same words, byte for byte. */
 export function texture(map: Image, options?: {
-  /** Conventions of the map and of the texture. from: "auto" finds it. Defaults: "gltf,exact", and that of the map. */
+  /** Conventions of the map and of the texture. Defaults: "gltf,exact", and that of the map. */
   from?: Convention;
   to?: Convention;
   /** Default: "none", pixels of 8 bits. */

@@ -142,8 +142,7 @@ def map_convert(
 
     Args:
         map: an image; in float32 0.5 stands for zero, which is not 128 / 255.
-        source, to: conventions: "directx", "gltf", ...; both in tangent space or both in object space. source "auto":
-            as `detect` finds it; InputError if green cannot be told.
+        source, to: conventions: "directx", "gltf", ...; both in tangent space or both in object space.
         bits: bit depth of the result: 8, 16 or 32. Default: that of the map.
         out: an image of the map's size to write into.
 
@@ -186,10 +185,7 @@ def map_from_height(
 
 
 def map_to_height(map: Map, source: Convention = "gltf,exact") -> NDArray[np.float32]:
-    """Heights (height, width) float32, in texel widths, mean 0, whose slopes are nearest to those of the map.
-
-    source: its convention; "auto": as `detect` finds it.
-    """
+    """Heights (height, width) float32, in texel widths, mean 0, whose slopes are nearest to those of the map."""
     pixels = pixels_of(map)
     arrays.stored(pixels, source, "map")
     heights = np.empty(pixels.shape[:2], np.float32)
@@ -265,7 +261,7 @@ def map_texture(
 
     Args:
         map: an image.
-        source, to: conventions of the map and of the texture. source "auto": as `detect` finds it. Default of to: source.
+        source, to: conventions of the map and of the texture. Default of to: source.
         compress: the format of the blocks; "none" stores pixels of 8 bits.
         swizzle: where a map of two channels has x and y; "auto": where engines expect them.
         container: "ktx2" or "dds", which has BC formats and pixels only.

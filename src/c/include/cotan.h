@@ -231,8 +231,7 @@ typedef struct cotan_map_info {
 } cotan_map_info;
 cotan_status cotan_map_describe(const cotan_image_view* map, cotan_map_info* info, char* message, size_t message_size);
 
-/* Converts a map to another convention. `to_map` has the size of `map` and the requested bits. from: words, or "auto":
- * how the map is stored, as cotan_map_green finds it; COTAN_INPUT if green cannot be told. */
+/* Converts a map to another convention. `to_map` has the size of `map` and the requested bits. */
 cotan_status cotan_map_convert(const cotan_image_view* map, const char* from, const char* to, cotan_image_view* to_map,
                                char* message, size_t message_size);
 
@@ -241,8 +240,7 @@ cotan_status cotan_map_convert(const cotan_image_view* map, const char* from, co
 cotan_status cotan_map_from_height(const cotan_image_view* height, double scale_x, double scale_y, const char* to,
                                    cotan_image_view* map, char* message, size_t message_size);
 
-/* Returns the height whose slopes are closest to the map's, in texel widths, with mean 0: width * height floats. from:
- * as for cotan_map_convert. */
+/* Returns the height whose slopes are closest to the map's, in texel widths, with mean 0: width * height floats. */
 cotan_status cotan_map_to_height(const cotan_image_view* map, const char* from, float* heights, char* message,
                                  size_t message_size);
 
@@ -262,7 +260,7 @@ cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention,
 
 typedef struct cotan_texture_options {
     size_t size;
-    const char* from;      /* convention of the map, or "auto"; null: "gltf,exact" */
+    const char* from;      /* convention of the map; null: "gltf,exact" */
     const char* to;        /* convention of the texture; null: as `from`. Formats of two channels hold its x and y */
     const char* compress;  /* as --compress of `cotan map convert`: "bc5", "uastc", "astc-6x6", ...; null: "none" */
     const char* swizzle;   /* as --swizzle: where two channels are; null: "auto" */

@@ -17,7 +17,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -215,10 +214,6 @@ Damage damageOf(const NormalStatistics& statistics);
 // value moves.
 std::optional<StatedConvention> foundConvention(const GreenVerdict& verdict, const Convention& to,
                                                 const Damage& undone = {});
-
-// What a map that was found to be stored as `found` is converted to: the convention of `words`, but a zero of 127.5
-// stays unless they name one (exact, biased, signed). Errors: as parseConvention.
-Result<Convention> convertedTo(const Convention& found, std::string_view words);
 
 // "NAME: FAULT; FAULT; cotan map convert OPTIONS fixes it."; without the command if none fixes it; empty without
 // faults.
