@@ -167,7 +167,7 @@ std::vector<std::string> mapFaults(const Scene& scene, bool judgeGreen)
     return sentences;
 }
 
-std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics)
+std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics, ReadAs reading)
 {
     if (faults.empty())
         return {};
@@ -177,8 +177,12 @@ std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics&
     const bool down = has(faults, Kind::greenDown);
     const char* const expansion = down && statistics.centre == Centre::biased ? ",biased" : "";
     std::string options = std::string(down ? "--from directx" : "--from gltf") + expansion;
-    if (has(faults, Kind::twoChannels) || has(faults, Kind::slopes))
-        options += has(faults, Kind::slopes) ? ",slope" : ",xy";
+    const bool asStored = reading == ReadAs::file
+        && std::ranges::any_of(faults, [](const Fault& fault) { return changesLight(fault.kind); });
+    if (has(faults, Kind::slopes) || (asStored && statistics.content == Content::slopes))
+        options += ",slope";
+    else if (has(faults, Kind::twoChannels) || (asStored && statistics.content == Content::twoChannel))
+        options += ",xy";
     for (const Kind kind : {Kind::srgb, Kind::linearised, Kind::redAndBlue, Kind::redAndGreen})
         if (has(faults, kind))
             options += std::string(",") + name(kind);
@@ -230,7 +234,7 @@ std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults
         text += fault.text + "; ";
     if (has(faults, Fault::Kind::height))
         return text + "cotan map from-height makes a normal map of it.";
-    const std::string fix = fixOptions(faults, statistics);
+    const std::string fix = fixOptions(faults, statistics, ReadAs::glTF);
     if (!fix.empty())
         return text + "cotan map convert " + fix + " fixes it.";
     text.resize(text.size() - 2);

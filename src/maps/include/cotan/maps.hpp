@@ -202,8 +202,11 @@ std::string noteOf(const NormalStatistics& statistics);
 std::vector<std::string> mapFaults(const Scene& scene, bool judgeGreen = false);
 
 // The options of `cotan map convert` that fix all faults, such as "--from directx,srgb --to opengl"; empty without
-// faults. A map whose zero is 127.5 keeps it: negating green about 128 would tilt it by 0.45 degrees.
-std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics);
+// faults. A map whose zero is 127.5 keeps it: negating green about 128 would tilt it by 0.45 degrees. A file of two
+// channels is read as such; as glTF reads it only if that is one of the faults.
+enum class ReadAs { file, glTF };
+std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics,
+                       ReadAs reading = ReadAs::file);
 
 // The damage that the statistics reveal, which hides the direction of green until it is undone: a curve, or red and
 // blue exchanged.
