@@ -41,8 +41,8 @@ Result<BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
         *target = *convention;
     }
     if (!o.to.empty()) {
-        COTAN_TRY(convention, parseWrittenConvention(o.to, "--to"));
-        options.to = *convention;
+        COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
+        options.to = written->convention;
     }
     COTAN_TRY(mode,
               valueOf<maps::BlendMode>("--mode", o.mode,

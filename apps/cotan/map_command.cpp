@@ -55,14 +55,10 @@ Result<StatedConvention> parseConvention(const std::string& text, const std::str
     return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
-Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option)
+Result<StatedConvention> parseWrittenConvention(const std::string& text, const std::string& option)
 {
-    COTAN_TRY(stated, parseConvention(text, option));
-    if (stated->damage.any())
-        return usageError(fmt::format("{}: srgb, linearised, bgr and grb describe broken maps; expected a convention "
-                                      "without them, found '{}'",
-                                      option, text));
-    return stated->convention;
+    auto convention = cotan::parseWrittenConvention(text);
+    return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
 std::vector<std::string> warned(const MapOptions& options, std::vector<std::string> notes)

@@ -28,38 +28,24 @@ struct MapConvertCommandOptions : MapOptions {
 // The value of --from for a map whose convention is found, as `map detect` finds it.
 constexpr const char* kFound = "auto";
 
-// Sets `from`, and repairs besides, as `map detect` advises. A zero of 127.5 stays unless --to names one.
-Status findSource(const MapConvertCommandOptions& o, ConvertFileOptions& options)
+// Sets `from` and `to`, and repairs besides, as `map detect` advises.
+Status findSource(const MapConvertCommandOptions& o, const StatedConvention& to, ConvertFileOptions& options)
 {
-    using Kind = maps::Fault::Kind;
-    Damage damage;
-    const auto look = [&] {
-        return onFiles(o, "looking at " + o.file,
-                       [&](const FileOptions& files) { return greenOfFile(o.file, files, damage); });
+    GreenOfFile seen;
+    const auto look = [&](const Damage& damage) -> Result<maps::GreenVerdict> {
+        COTAN_TRY(green, onFiles(o, "looking at " + o.file, [&](const FileOptions& files) {
+                      return greenOfFile(o.file, files, damage);
+                  }));
+        seen = *green;
+        return seen.verdict;
     };
-    auto found = look();
-    if (found)
-        damage = maps::damageOf(found->verdict.statistics);
-    if (damage.any())
-        found = look();
-    if (!found)
-        return found.error();
-    const auto from = maps::foundConvention(found->verdict, options.to, damage);
-    if (!from)
-        return inputError(fmt::format("{}: --from auto: expected a normal map whose green can be told; found: {}. Say "
-                                      "how it is stored: --from opengl or --from directx",
-                                      o.file, found->verdict.reason));
-    say(o, "{}", linesOf(*found, o.file).front());
-    options.from = *from;
-    const std::vector<std::string> words = splitAtCommas(o.to);
-    const auto names = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
-    if (from->convention.expansion == Expansion::biased && !names("exact") && !names("signed"))
-        options.to.expansion = Expansion::biased;
-    for (const maps::Fault& fault : maps::faultsOf(found->verdict.statistics, &found->verdict)) {
-        options.normalise = options.normalise || fault.kind == Kind::tooShort || fault.kind == Kind::tooLong;
-        if (fault.kind == Kind::eightBitsIn16 && o.bits == "auto")
-            options.bits = "8";
-    }
+    COTAN_TRY(found, maps::findMap(o.file + ": --from", to, look));
+    say(o, "{}", linesOf(seen, o.file).front());
+    options.from = found->from;
+    options.to = found->to;
+    options.normalise = options.normalise || found->normalise;
+    if (found->eightBits && o.bits == "auto")
+        options.bits = "8";
     return Done{};
 }
 
@@ -103,7 +89,7 @@ Status run(const MapConvertCommandOptions& o)
     COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
     COTAN_CHECK(needOutput(o, "convert"));
     ConvertFileOptions options{.from = *stated,
-                               .to = *written,
+                               .to = written->convention,
                                .bits = o.bits,
                                .compress = o.compress,
                                .swizzle = o.swizzle,
@@ -115,7 +101,7 @@ Status run(const MapConvertCommandOptions& o)
     COTAN_TRY(budget, budgetOf(o));
     options.budget = *budget;
     if (o.from == kFound)
-        COTAN_CHECK(findSource(o, options));
+        COTAN_CHECK(findSource(o, *written, options));
     const Convention& to = options.to;
     if (!o.mesh.empty()) {
         COTAN_TRY(frame, parseFrame(o.frame, "--frame"));

@@ -25,7 +25,7 @@ Status run(const MapMipsCommandOptions& o)
     std::optional<Convention> to;
     if (!o.to.empty()) {
         COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
-        to = *written;
+        to = written->convention;
     }
     using enum maps::VarianceModel;
     COTAN_TRY(model,

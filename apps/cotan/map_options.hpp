@@ -26,7 +26,7 @@ void addDither(Arguments& command, bool& dither);
 Result<StatedConvention> parseConvention(const std::string& text, const std::string& option);
 
 // The same for a map that is written: its words must not describe a broken map.
-Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option);
+Result<StatedConvention> parseWrittenConvention(const std::string& text, const std::string& option);
 
 // For commands that write a map: requires -o, and plans the output `file`, or that of -o if `file` is empty.
 Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file = {});
