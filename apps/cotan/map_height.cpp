@@ -78,10 +78,15 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     });
     if (!done)
         return done.error();
+    std::vector<std::string> warnings;
     if (done->invalid > 0)
-        warn(o, "{}: {} texels have no finite height next to them; written as flat", o.file, done->invalid);
+        warnings.push_back(
+            fmt::format("{}: {} texels have no finite height next to them; written as flat", o.file, done->invalid));
     if (done->heights == PixelType::unorm8)
-        warn(o, "{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2);
+        warnings.push_back(fmt::format("{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file,
+                                       done->slopeX / 255 / 2));
+    for (const std::string& warning : warnings)
+        warn(o, warning);
     say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(to));
     return writeReport(o,
                        {{"command", "map from-height"},
@@ -90,7 +95,8 @@ Status runFrom(const MapFromHeightCommandOptions& o)
                         {"to", describe(to)},
                         {"slope_per_unit_and_texel", {done->slopeX, done->slopeY}},
                         {"bits", bitsName(done->bits)},
-                        {"invalid", done->invalid}});
+                        {"invalid", done->invalid},
+                        {"warnings", warnings}});
 }
 
 // The options that convert the heights back to the map.
