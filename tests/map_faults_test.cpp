@@ -223,10 +223,10 @@ TEST(MapFaults, autoRefusesAMapWhoseGreenCannotBeToldAndWritesNothing)
         const ToolRun run =
             runTool({"map", "convert", "map.png", "--from", "auto", "--to", "opengl", "-o", "out.png"}, folder.path());
         EXPECT_EQ(run.code, 2) << run.out;
-        EXPECT_NE(run.err.find("map.png: --from auto: expected a normal map whose green can be told; found: "),
+        EXPECT_NE(run.err.find("map.png: --from: auto: expected a normal map whose green can be told; found: "),
                   std::string::npos)
             << run.err;
-        EXPECT_NE(run.err.find("--from opengl or --from directx"), std::string::npos);
+        EXPECT_NE(run.err.find("opengl or directx"), std::string::npos);
         EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
     }
 }
@@ -264,6 +264,47 @@ TEST(MapFaults, autoReadsMapsInEveryCommandAsTheirStatedConventionDoes)
     const ToolRun run = runTool({"map", "diff", "up.png", "down.png", "--from", "auto"}, folder.path());
     EXPECT_NE(run.out.find("up.png: green: up"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("down.png: green: down"), std::string::npos) << run.out;
+}
+
+// Maps of two channels, wherever these are, with green up and down: the command that detect prints for a map, and auto,
+// give the relief; a map that needs no command keeps it.
+TEST(MapFaults, printedCommandFixesMapsOfTwoChannels)
+{
+    TemporaryFolder folder;
+    for (const unsigned seed : {3u, 4u}) {
+        ASSERT_TRUE(writeImage(folder / "relief.png", randomRelief(seed)));
+        for (const std::string stored : {"opengl", "directx"})
+            for (const std::string swizzle : {"rg", "ra", "ag"}) {
+                const std::string what = stored + ", " + swizzle + ", relief " + std::to_string(seed);
+                const auto convert = [&](std::vector<std::string> words) {
+                    words.insert(words.begin(), {"map", "convert"});
+                    words.insert(words.end(), {"--quiet", "--overwrite"});
+                    const ToolRun run = runTool(words, folder.path());
+                    EXPECT_EQ(run.code, 0) << what << run.err;
+                };
+                convert({"relief.png", "--from", "opengl", "--to", stored + ",xy", "--swizzle", swizzle, "-o",
+                         "two channels.png"});
+                convert({"two channels.png", "--from", "auto", "--to", "opengl", "-o", "auto.png"});
+                std::vector<std::string> fixed = {"auto.png"};
+                const ToolRun detected = runTool({"map", "detect", "two channels.png", "--json", "-"}, folder.path());
+                const auto fix = nlohmann::json::parse(detected.out).at("fix");
+                EXPECT_EQ(fix.is_null(), stored == "opengl") << what;
+                if (!fix.is_null()) {
+                    std::istringstream printed(fix.get<std::string>());
+                    std::vector<std::string> words = {"two channels.png", "-o", "fixed.png"};
+                    for (std::string word; printed >> word;)
+                        words.push_back(word);
+                    convert(words);
+                    fixed.push_back("fixed.png");
+                }
+                const auto relief = readImage(folder / "relief.png");
+                for (const std::string& file : fixed) {
+                    const auto image = readImage(folder / file);
+                    ASSERT_TRUE(relief && image) << what;
+                    EXPECT_LE(worstStep(*relief, *image), 2) << what << ", " << file;
+                }
+            }
+    }
 }
 
 // If the zero of a map is 127.5, reversing green about 128 tilts normals by 0.45 degrees.

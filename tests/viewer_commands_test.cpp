@@ -163,6 +163,7 @@ TEST(ViewerCommands, sidesAreSetSeparatelyAndSwapped)
     EXPECT_EQ(all.a.normalMap, "a b.png");
     EXPECT_EQ(all.a.convention, "directx");
     EXPECT_EQ(after("convention ", all).a.convention, "");
+    EXPECT_EQ(after("convention gltf,srgb", all).a.convention, "gltf,srgb"); // as --convention
     for (const char* wrong : {"frame x", "tangents x", "convention x", "second x", "second frame x"})
         EXPECT_TRUE(refused(wrong)) << wrong;
 }

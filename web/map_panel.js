@@ -13,23 +13,23 @@ const kGreenDown = new Set(['directx', 'unreal', '3dsmax', 'source']);
 
 export async function showMap(result, name, image) {
   const text = language => library.shader({ language, frame: 'cotangent', convention: 'gltf,exact' });
-  const [green, info, essl, wgsl] = await Promise.all([library.detect(image), library.info(image), text('essl'), text('wgsl')]);
+  const canFix = library.convertMap(image, { from: 'auto', to: 'gltf' }).then(() => true, error => { if (error.code !== 'input') throw error; return false; });
+  const [green, info, essl, wgsl, known] = await Promise.all([library.detect(image), library.info(image), text('essl'), text('wgsl'), canFix]);
   const preview = mapView({ essl, wgsl }, { 'aria-label': 'The map as a relief, lit from the position of the pointer' });
   preview.put('before', image);
   const words = greenWords(green, info), verdict = el('p', {}), advice = el('p', {});
   const button = el('button', { type: 'button', class: 'main', onclick: save }, 'Download the fixed map');
   const command = el('code', {});
   const inThree = el('p', { class: 'small', hidden: true }, 'Without a new file, in three.js: ', el('code', { 'data-paste': '' }, 'material.normalScale.y *= -1;'));
-  const known = green.green !== 'unknown', isDown = green.green === 'down';
+  const isDown = green.green === 'down', isBroken = green.green === 'unknown' || green.swapped === true || info.transfer !== 'linear';
   let target = isDown ? 'gltf' : 'unreal', fixed;
   const engine = choice('Your engine or format', kEngines, target, value => { target = value; fix(); });
   const halves = divider(preview.element, share => preview.show(share), ['original', 'fixed']);
 
-  const from = `${isDown ? 'directx' : 'opengl'}${info.zero === 127 ? ',biased' : ''}`;
   const newName = () => `${name.replace(/\.[^.]*$/, '')}_${target}.png`;
   async function fix() {
-    const wanted = target, down = kGreenDown.has(target), fits = !known || down === isDown;
-    const made = !known ? image : await library.convertMap(image, { from, to: wanted });
+    const wanted = target, down = kGreenDown.has(target), fits = !known || (down === isDown && !isBroken);
+    const made = !known ? image : await library.convertMap(image, { from: 'auto', to: wanted });
     if (wanted !== target) return;
     fixed = made;
     preview.greenDown = down;
@@ -37,11 +37,11 @@ export async function showMap(result, name, image) {
     preview.show(halves.share());
     verdict.className = `verdict ${!known ? '' : fits ? 'good' : 'bad'}`;
     verdict.textContent = !known ? words
-      : fits ? `Green is right for ${kEngines[target]}.` : `Green points the wrong way for ${kEngines[target]}: bumps look like dents.`;
+      : fits ? `Green is right for ${kEngines[target]}.` : isBroken ? `The map is broken; the fixed one is right for ${kEngines[target]}.` : `Green points the wrong way for ${kEngines[target]}: bumps look like dents.`;
     advice.textContent = words;
     advice.hidden = button.disabled = !known;
     inThree.hidden = !(target === 'gltf' && isDown);
-    command.textContent = `cotan map convert ${name} --from ${from} --to ${target} -o ${newName()}`;
+    command.textContent = `cotan map convert ${quoted(name)} --from auto --to ${target} -o ${quoted(newName())}`;
   }
   async function save() {
     download(await library.encodePng(fixed), newName(), 'image/png');
@@ -55,6 +55,9 @@ export async function showMap(result, name, image) {
       el('figcaption', {}, 'Move the pointer over the image to move the light. Left: the original map as your engine reads it.'))));
   await Promise.all([fix(), preview.ready]);
 }
+
+// A name of a file as a word of a command line.
+const quoted = name => (/^[\w.][\w.-]*$/.test(name) ? name : `"${name.replace(/^-/, './-').replace(/["\\$`]/g, '\\$&')}"`);
 
 function greenWords({ green, confidence, swapped, reason }, info) {
   if (green === 'unknown') return `Nothing in this map shows which way green points${reason ? `: ${reason}` : ''}.`;

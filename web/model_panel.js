@@ -122,10 +122,7 @@ async function showView(figure, files, mine) {
 }
 
 // Maps whose green points the other way than the model says, unless stored tangents reverse it too.
-function wrongGreen(lint) {
-  const meant = new Set((lint.primitives ?? []).filter(({ stored_tangents: stored }) => stored?.reversed_w > 0.5).map(({ normal_map: image }) => image));
-  return (lint.maps ?? []).filter(map => map.decided && !map.as_declared && !meant.has(map.image));
-}
+const wrongGreen = lint => (lint.maps ?? []).filter(map => map.decided && !map.as_declared && !map.reversed_by_tangents);
 
 // Code for three.js that works without a new file.
 function linesFor(lint) {
@@ -141,8 +138,8 @@ function verdictOf(lint, name) {
   const reversed = lint.primitives.some(({ stored_tangents: stored }) => stored?.reversed_w > 0.5), distrusted = lint.distrust_stored;
   const mapped = lint.decisions.filter(({ reason }) => reason !== 'no_map').length;
   const words = empty ? 'It has no normal map: there is nothing to judge.'
-    : green && reversed ? 'Green and the stored tangents are both reversed: together they cancel out, each alone is wrong.'
-      : green ? 'Green of a normal map points opposite to what the model says: bumps look like dents.'
+    : wrongGreen(lint).length > 0 ? 'Green of a normal map points opposite to what the model says: bumps look like dents.'
+      : green ? 'Green and the stored tangents are both reversed: together they cancel out, each alone is wrong.'
         : distrusted ? `Its stored tangents contradict its texture coordinates${reversed ? ': without them green is read as they imply' : ''}.`
           : stay > 0 ? `Without stored tangents ${stay} of its ${mapped} parts would look different: ${stay === 1 ? 'it keeps' : 'those keep'} them.`
             : lint.advice ? 'It needs no stored tangents: its maps are read as they are.'

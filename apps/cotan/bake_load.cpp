@@ -12,7 +12,6 @@
 #include "cotan/gltf.hpp"
 #include "files/file_registry.hpp"
 #include "gltf_open.hpp"
-#include "image/component_types.hpp"
 #include "model/model_formats.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
@@ -42,8 +41,6 @@ Result<HighModel> loadHigh(const BakeJob& job)
     }
     for (std::size_t i = 0; job.readsHighMaps() && i < job.highMaps.size(); ++i) {
         COTAN_TRY(image, readImageWithin(job.memory, job.highMaps[i]));
-        if (image->channels == 2) // z is missing in the file
-            completeNormals(*image);
         high.maps.push_back(std::move(*image));
     }
     return high;

@@ -35,8 +35,8 @@ Result<BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
     using enum maps::BlendMode;
     BlendFileOptions options;
     if (!o.to.empty()) {
-        COTAN_TRY(convention, parseWrittenConvention(o.to, "--to"));
-        options.to = *convention;
+        COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
+        options.to = written->convention;
     }
     COTAN_TRY(mode,
               valueOf<maps::BlendMode>("--mode", o.mode,
@@ -50,7 +50,7 @@ Result<BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
          {std::tuple(o.from, "--from", o.base, &options.base),
           {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", o.detail, &options.detail}}) {
         COTAN_TRY(source, sourceOf(o, words, option, file));
-        *target = source->stated;
+        *target = source->from;
     }
     options.mode = *mode;
     options.strength = float(o.strength);

@@ -56,33 +56,25 @@ Result<StatedConvention> parseConvention(const std::string& text, const std::str
     return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
-Result<MapSource> sourceOf(const MapOptions& o, const std::string& text, const std::string& option,
-                           const std::string& file, const Convention& to)
+Result<maps::FoundMap> sourceOf(const MapOptions& o, const std::string& text, const std::string& option,
+                                const std::string& file, const StatedConvention& to)
 {
     if (text != kFound) {
         const auto stated = parseStatedConvention(text);
-        return stated ? Result<MapSource>(MapSource{*stated})
+        return stated ? Result<maps::FoundMap>(maps::FoundMap{.from = *stated, .to = to.convention})
                       : usageError(fmt::format("{}: {}, or: {}", option, stated.error().message, kFound));
     }
-    Damage damage;
-    const auto look = [&] {
-        return onFiles(o, "looking at " + file,
-                       [&](const FileOptions& files) { return greenOfFile(file, files, damage); });
+    GreenOfFile seen;
+    const auto look = [&](const Damage& damage) -> Result<maps::GreenVerdict> {
+        COTAN_TRY(green, onFiles(o, "looking at " + file, [&](const FileOptions& files) {
+                      return greenOfFile(file, files, damage);
+                  }));
+        seen = *green;
+        return seen.verdict;
     };
-    auto found = look();
-    if (found)
-        damage = maps::damageOf(found->verdict.statistics);
-    if (damage.any())
-        found = look();
-    if (!found)
-        return found.error();
-    const auto stated = maps::foundConvention(found->verdict, to, damage);
-    if (!stated)
-        return inputError(fmt::format("{}: {} auto: expected a normal map whose green can be told; found: {}. Say how "
-                                      "it is stored: {} opengl or {} directx",
-                                      file, option, found->verdict.reason, option, option));
-    say(o, "{}: {}", file, linesOf(*found, file).front());
-    return MapSource{*stated, found->verdict};
+    COTAN_TRY(found, maps::findMap(file + ": " + option, to, look));
+    say(o, "{}: {}", file, linesOf(seen, file).front());
+    return *found;
 }
 
 Argument addSource(Arguments& command, const std::string& option, std::string& text, const std::string& about)
@@ -102,14 +94,10 @@ Argument addSource(Arguments& command, const std::string& option, std::string& t
         .offers(words);
 }
 
-Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option)
+Result<StatedConvention> parseWrittenConvention(const std::string& text, const std::string& option)
 {
-    COTAN_TRY(stated, parseConvention(text, option));
-    if (stated->damage.any())
-        return usageError(fmt::format("{}: srgb, linearised, bgr and grb describe broken maps; expected a convention "
-                                      "without them, found '{}'",
-                                      option, text));
-    return stated->convention;
+    auto convention = cotan::parseWrittenConvention(text);
+    return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
 std::vector<std::string> warned(const MapOptions& options, std::vector<std::string> notes)

@@ -25,17 +25,6 @@ struct MapConvertCommandOptions : MapOptions {
     int material = -1;
 };
 
-// Repairs besides, as `map detect` advises.
-void repairAsFound(const MapConvertCommandOptions& o, const maps::GreenVerdict& verdict, ConvertFileOptions& options)
-{
-    using Kind = maps::Fault::Kind;
-    for (const maps::Fault& fault : maps::faultsOf(verdict.statistics, &verdict)) {
-        options.normalise = options.normalise || fault.kind == Kind::tooShort || fault.kind == Kind::tooLong;
-        if (fault.kind == Kind::eightBitsIn16 && o.bits == "auto")
-            options.bits = "8";
-    }
-}
-
 // The budget of --max-degrees and --for, which go together.
 Result<std::optional<FormatBudget>> budgetOf(const MapConvertCommandOptions& o)
 {
@@ -69,21 +58,17 @@ Status run(const MapConvertCommandOptions& o)
     COTAN_CHECK(needOutput(o, "convert"));
     COTAN_TRY(budget, budgetOf(o));
     COTAN_TRY(source, sourceOf(o, o.from, "--from", o.file, *written));
-    ConvertFileOptions options{.from = source->stated,
-                               .to = *written,
-                               .bits = o.bits,
+    ConvertFileOptions options{.from = source->from,
+                               .to = source->to,
+                               .bits = source->eightBits && o.bits == "auto" ? "8" : o.bits,
                                .compress = o.compress,
                                .swizzle = o.swizzle,
                                .strength = float(o.strength),
                                .mips = o.mips,
-                               .normalise = o.normalise,
+                               .normalise = o.normalise || source->normalise,
                                .dither = o.dither,
                                .mesh = {}};
     options.budget = *budget;
-    if (source->verdict) {
-        options.to = *maps::convertedTo(options.from.convention, o.to);
-        repairAsFound(o, *source->verdict, options);
-    }
     const Convention& to = options.to;
     if (!o.mesh.empty()) {
         COTAN_TRY(frame, parseFrame(o.frame, "--frame"));

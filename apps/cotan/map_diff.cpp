@@ -19,7 +19,7 @@ Status run(const MapDiffCommandOptions& o)
     COTAN_TRY(from, sourceOf(o, o.from, "--from", o.a));
     COTAN_TRY(to, o.to.empty() ? sourceOf(o, o.from, "--from", o.b) : sourceOf(o, o.to, "--to", o.b));
     const auto compared = onFiles(o, o.a, [&](const FileOptions& files) {
-        return compareFiles(o.a, from->stated, o.b, to->stated, o.output, files, o.mask);
+        return compareFiles(o.a, from->from, o.b, to->from, o.output, files, o.mask);
     });
     if (!compared)
         return compared.error();

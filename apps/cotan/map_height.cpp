@@ -56,7 +56,8 @@ const Words<maps::Kernel> kDifferences = {{"forward", maps::Kernel::forward},
 Status runFrom(const MapFromHeightCommandOptions& o)
 {
     COTAN_CHECK(needOutput(o, "from-height"));
-    COTAN_TRY(to, parseWrittenConvention(o.convention, "--to"));
+    COTAN_TRY(written, parseWrittenConvention(o.convention, "--to"));
+    const Convention& to = written->convention;
     COTAN_TRY(kernel, valueOf("--kernel", o.kernel, kDifferences));
     using enum maps::Wrap;
     COTAN_TRY(wrap, valueOf<maps::Wrap>("--wrap", o.wrap, {{"repeat", repeat}, {"clamp", clamp}, {"mirror", mirror}}));
@@ -65,7 +66,7 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     COTAN_TRY(metres, parseMetres(o.metres));
     const auto done = onFilesToMap(o, o.file, [&](const FileOptions& files) {
         return normalsFromHeightFile(o.file, o.output,
-                                     {.to = *to,
+                                     {.to = to,
                                       .kernel = *kernel,
                                       .wrap = *wrap,
                                       .metres = *metres,
@@ -77,19 +78,25 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     });
     if (!done)
         return done.error();
+    std::vector<std::string> warnings;
     if (done->invalid > 0)
-        warn(o, "{}: {} texels have no finite height next to them; written as flat", o.file, done->invalid);
+        warnings.push_back(
+            fmt::format("{}: {} texels have no finite height next to them; written as flat", o.file, done->invalid));
     if (done->heights == PixelType::unorm8)
-        warn(o, "{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2);
-    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(*to));
+        warnings.push_back(fmt::format("{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file,
+                                       done->slopeX / 255 / 2));
+    for (const std::string& warning : warnings)
+        warn(o, warning);
+    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(to));
     return writeReport(o,
                        {{"command", "map from-height"},
                         {"file", o.file},
                         {"output", o.output.string()},
-                        {"to", describe(*to)},
+                        {"to", describe(to)},
                         {"slope_per_unit_and_texel", {done->slopeX, done->slopeY}},
                         {"bits", bitsName(done->bits)},
-                        {"invalid", done->invalid}});
+                        {"invalid", done->invalid},
+                        {"warnings", warnings}});
 }
 
 // The options that convert the heights back to the map.
@@ -115,7 +122,7 @@ Status runTo(const MapToHeightCommandOptions& o)
     COTAN_TRY(from, sourceOf(o, o.convention, "--from", o.file));
     const auto done = onFiles(o, "solving for the height", [&](const FileOptions& files) {
         return heightFromNormalsFile(o.file, o.output,
-                                     {.from = from->stated,
+                                     {.from = from->from,
                                       .kernel = *kernel,
                                       .boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic,
                                       .metres = *metres,

@@ -21,7 +21,7 @@ Status run(const MapMipsCommandOptions& o)
 {
     const std::filesystem::path first = firstMipFile(o.output);
     COTAN_CHECK(needOutput(o, "mips", first));
-    std::optional<Convention> to;
+    std::optional<StatedConvention> to;
     if (!o.to.empty()) {
         COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
         to = *written;
@@ -29,12 +29,15 @@ Status run(const MapMipsCommandOptions& o)
     using enum maps::VarianceModel;
     COTAN_TRY(model,
               valueOf<maps::VarianceModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}}));
-    COTAN_TRY(from, sourceOf(o, o.from, "--from", o.file, to.value_or(Convention{})));
+    COTAN_TRY(from, sourceOf(o, o.from, "--from", o.file, to.value_or(StatedConvention{})));
     const auto plan = [&](const std::filesystem::path& file) {
         return file == first ? Status(Done{}) : planOutput("-o", file);
     };
-    const MipFileOptions options{from->stated, to,         *model,    o.roughness, o.keepLengths,
-                                 o.bits,       o.compress, o.swizzle, plan};
+    const MipFileOptions options{from->from,    to ? std::optional(to->convention) : std::nullopt,
+                                 *model,        o.roughness,
+                                 o.keepLengths, o.bits,
+                                 o.compress,    o.swizzle,
+                                 plan};
     const auto done = onFiles(o, "filtering levels",
                               [&](const FileOptions& files) { return writeMips(o.file, o.output, options, files); });
     if (!done)

@@ -1,7 +1,6 @@
 // Shared by the subcommands of `cotan map`.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,25 +26,19 @@ void addDither(Arguments& command, bool& dither);
 // parseStatedConvention with the option's name in its error.
 Result<StatedConvention> parseConvention(const std::string& text, const std::string& option);
 
-// How a map is stored, as an option states it.
-struct MapSource {
-    StatedConvention stated;
-    std::optional<maps::GreenVerdict> verdict = {}; // of `auto`
-};
-
 // The value of such options for a map whose convention is found, as `map detect` finds it.
 inline constexpr const char* kFound = "auto";
 
-// parseConvention, or for kFound what `map detect` finds, which is printed. to: as foundConvention. Errors: as
-// parseConvention and greenOfFile; ErrorKind::input if green cannot be told.
-Result<MapSource> sourceOf(const MapOptions& options, const std::string& text, const std::string& option,
-                           const std::string& file, const Convention& to = {});
+// parseStatedConvention, or for kFound maps::findMap, which says what it sees; then `to` may keep the zero of the map,
+// and repairs are asked for. Errors: as these and greenOfFile.
+Result<maps::FoundMap> sourceOf(const MapOptions& options, const std::string& text, const std::string& option,
+                                const std::string& file, const StatedConvention& to = {});
 
 // Declares such an option. about: what it tells, as in "how the map is stored".
 Argument addSource(Arguments& command, const std::string& option, std::string& text, const std::string& about);
 
 // parseConvention for a map that is written: its words must not describe a broken map.
-Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option);
+Result<StatedConvention> parseWrittenConvention(const std::string& text, const std::string& option);
 
 // For commands that write a map: requires -o, and plans the output `file`, or that of -o if `file` is empty.
 Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file = {});

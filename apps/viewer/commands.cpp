@@ -98,7 +98,7 @@ Status setSide(Side& side, const std::string& what, const std::string& value)
         side.normalMap = value;
     } else if (what == "convention") {
         if (!value.empty())
-            COTAN_CHECK(parseConvention(value));
+            COTAN_CHECK(parseStatedConvention(value));
         side.convention = value;
     } else if (what == "high") {
         if (value != "on" && value != "off")

@@ -17,6 +17,7 @@
 #include "cotan/covector.hpp"
 #include "cotan/maps.hpp"
 #include "files/system/system.hpp"
+#include "image/component_types.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"
@@ -218,9 +219,13 @@ void applyMaps(HighModel& high, const std::optional<Convention>& format)
 Status readOwnMaps(HighModel& high, DetailedSurface& open)
 {
     const Convention stated = open.options.highFormat.value_or(Convention());
-    for (const Image& map : high.maps)
+    for (Image& map : high.maps) {
+        COTAN_TRY(read, maps::makeReadable(map, stated, map.name, "options.highFormat"));
+        if (stated.channels == Channels::xyz) // z of two channels
+            completeNormals(map);
         if (const std::string found = maps::contradictionOf(map, stated); !found.empty())
             open.warnings.push_back(fmt::format("{}: {}; it is read as {}", map.name, found, describe(stated)));
+    }
     applyMaps(high, open.options.highFormat);
     COTAN_TRY(maps, HighNormalMaps::make(high.scenes, open.options.highFrame));
     if (const std::size_t bare = maps->instanceCount() - maps->mappedCount(); bare > 0)

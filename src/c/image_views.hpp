@@ -80,12 +80,17 @@ inline Convention conventionOf(const char* words, const char* name)
     return valueOf(parseConvention(word(words, name)), name);
 }
 
+inline void requireStorable(const Convention& convention, const char* name, PixelType type)
+{
+    if (convention.expansion == Expansion::signedValues && type != PixelType::float32)
+        fail(ErrorKind::usage, name, ": signed values need an image of 32 bits");
+}
+
 // Returns a convention that components of `type` can store.
 inline Convention storableAs(const char* words, const char* name, PixelType type)
 {
     const Convention convention = conventionOf(words, name);
-    if (convention.expansion == Expansion::signedValues && type != PixelType::float32)
-        fail(ErrorKind::usage, name, ": signed values need an image of 32 bits");
+    requireStorable(convention, name, type);
     return convention;
 }
 

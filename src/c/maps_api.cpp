@@ -1,9 +1,7 @@
 // cotan.h: normal maps as pixel buffers.
 #include <cmath>
 
-#include "call.hpp"
-#include "cotan/maps.hpp"
-#include "image_views.hpp"
+#include "readable_map.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
@@ -25,9 +23,7 @@ cotan_status cotan_map_green(const cotan_image_view* map, cotan_green* green, ch
         const maps::GreenVerdict v = maps::greenOf(imageOf(map, "map"));
         green->direction = v.green == maps::Green::up ? 1 : v.green == maps::Green::down ? -1 : 0;
         green->swapped = v.swapped == maps::Swapped::yes ? 1 : v.swapped == maps::Swapped::no ? 0 : -1;
-        green->confidence = v.confidence == maps::Confidence::certain ? 2
-            : v.confidence == maps::Confidence::likely                ? 1
-                                                                      : 0;
+        green->confidence = int(v.confidence); // in the order of cotan.h
         green->agreement = v.agreement;
         copyText(v.reason, green->reason, sizeof green->reason);
     });
@@ -54,16 +50,16 @@ cotan_status cotan_map_convert(const cotan_image_view* map, const char* from, co
                                char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        const Image image = imageOf(map, "map");
-        const cotan_image_view& out = output(to_map, "to_map", image);
-        maps::RecodeSettings settings;
-        settings.from = conventionOf(from, "from");
-        settings.type = typeOf(out, "to_map");
-        settings.to = storableAs(to, "to", settings.type);
-        require((settings.from.kind == MapKind::objectSpace) == (settings.to.kind == MapKind::objectSpace),
+        const ReadableMap read = readableMap(map, "map", from, "from", word(to, "to").data(), "to");
+        const cotan_image_view& out = output(to_map, "to_map", read.image);
+        const PixelType type = typeOf(out, "to_map");
+        requireStorable(read.to, "to", type);
+        require((read.from.kind == MapKind::objectSpace) == (read.to.kind == MapKind::objectSpace),
                 "to: expected a map of the same space; object space needs the mesh");
         maps::RecodeCounts counts;
-        put(maps::recode(image, settings, counts), out);
+        put(maps::recode(read.image, {.from = read.from, .to = read.to, .type = type, .normalise = read.normalise},
+                         counts),
+            out);
     });
 }
 
@@ -88,11 +84,11 @@ cotan_status cotan_map_to_height(const cotan_image_view* map, const char* from, 
                                  size_t message_size)
 {
     return call(message, message_size, [&] {
-        const Image image = imageOf(map, "map");
+        const ReadableMap read = readableMap(map, "map", from, "from", nullptr, "");
         require(heights, "heights: expected an array, found null");
         maps::ToHeightSettings settings;
-        settings.from = conventionOf(from, "from");
-        const maps::Heights made = maps::heightFromNormals(image, settings);
+        settings.from = read.from;
+        const maps::Heights made = maps::heightFromNormals(read.image, settings);
         std::copy(made.texels.begin(), made.texels.end(), heights);
     });
 }
@@ -102,16 +98,21 @@ cotan_status cotan_map_blend(const cotan_image_view* base, const cotan_image_vie
                              size_t message_size)
 {
     return call(message, message_size, [&] {
-        const Image under = imageOf(base, "base"), over = imageOf(detail, "detail");
-        const cotan_image_view& out = output(map, "map", under);
+        const auto read = [&](const cotan_image_view* view, const char* name) {
+            return readableMap(view, name, convention, "convention", nullptr, "");
+        };
+        const ReadableMap under = read(base, "base"), over = read(detail, "detail");
+        const cotan_image_view& out = output(map, "map", under.image);
         require(std::isfinite(strength), "strength: expected a finite number");
         maps::BlendSettings settings;
         settings.type = typeOf(out, "map");
-        settings.base = settings.detail = settings.to = storableAs(convention, "convention", settings.type);
+        settings.base = settings.to = under.from;
+        settings.detail = over.from;
+        requireStorable(settings.to, "convention", settings.type);
         settings.mode = valueOf(kModes, word(mode, "mode"), "mode");
         settings.strength = float(strength);
         std::size_t invalid = 0;
-        put(maps::blend(under, over, settings, invalid), out);
+        put(maps::blend(under.image, over.image, settings, invalid), out);
     });
 }
 
@@ -119,14 +120,15 @@ cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention,
                             cotan_take_level take, void* user, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        const Image image = imageOf(map, "map");
+        const ReadableMap read = readableMap(map, "map", convention, "convention", nullptr, "");
         require(take, "take: expected a function, found null");
         require(roughness >= 0 && roughness <= 1, "roughness: expected 0 to 1");
         maps::MipSettings settings;
-        settings.type = image.type;
-        settings.from = settings.to = storableAs(convention, "convention", settings.type);
+        settings.type = read.image.type;
+        settings.from = settings.to = read.from;
+        requireStorable(settings.to, "convention", settings.type);
         settings.roughness = roughness;
-        auto levels = maps::mipChain(image, settings);
+        auto levels = maps::mipChain(read.image, settings);
         for (std::size_t i = 0; i < levels.size(); ++i) {
             const cotan_image_view normals = imageViewOf(levels[i].normals), rough = imageViewOf(levels[i].roughness);
             if (take(user, int(i), &normals, &rough) != 0)

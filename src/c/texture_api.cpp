@@ -1,9 +1,6 @@
 // cotan.h: normal maps as textures of blocks.
-#include <string>
-#include <utility>
-
-#include "image_views.hpp"
 #include "maps/textures/make_texture.hpp"
+#include "readable_map.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
@@ -12,7 +9,6 @@ cotan_status cotan_map_texture(const cotan_image_view* map, const cotan_texture_
                                cotan_texture_result* result, cotan_bytes** texture, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        Image image = imageOf(map, "map");
         const cotan_texture_options o = optionsOf(options, "options");
         require(texture, "texture: expected a pointer, found null");
         if (result)
@@ -23,15 +19,13 @@ cotan_status cotan_map_texture(const cotan_image_view* map, const cotan_texture_
         const std::string container = wordOr(o.container, "ktx2");
         if (container != "ktx2" && container != "dds")
             fail(ErrorKind::usage, "options.container: expected ktx2 or dds, found '", container, "'");
-        image.frame = o.frame ? name(frameOr(o.frame, {}, "options.frame")) : "";
-        const std::string from = wordOr(o.from, "gltf,exact");
-        maps::TextureSettings settings{.from = storableAs(from.c_str(), "options.from", image.type),
-                                       .to = conventionOf(wordOr(o.to, from.c_str()).c_str(), "options.to"),
-                                       .compress = wordOr(o.compress, "none"),
-                                       .swizzle = wordOr(o.swizzle, "auto"),
-                                       .file = "map." + container,
-                                       .mips = o.mips != 0};
-        maps::MadeTexture made = valueOf(maps::makeTexture(std::move(image), settings));
+        ReadableMap read = readableMap(map, "map", o.from ? o.from : "gltf,exact", "options.from", o.to, "options.to");
+        requireStorable(read.from, "options.from", read.image.type);
+        read.image.frame = o.frame ? name(frameOr(o.frame, {}, "options.frame")) : "";
+        const maps::TextureSettings settings{
+            read.from,   read.to,       wordOr(o.compress, "none"), wordOr(o.swizzle, "auto"), "map." + container,
+            o.mips != 0, read.normalise};
+        maps::MadeTexture made = valueOf(maps::makeTexture(std::move(read.image), settings));
         if (result) {
             result->levels = made.levels;
             result->mean_degrees = made.cost ? made.cost->mean : -1;

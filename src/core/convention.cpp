@@ -76,9 +76,9 @@ template<Channels channels> void setChannels(StatedConvention& s)
 constexpr ConventionWord kWords[] = {
     {"green-up", [](StatedConvention& s) { s.convention.greenUp = true; }},
     {"green-down", [](StatedConvention& s) { s.convention.greenUp = false; }},
-    {"exact", [](StatedConvention& s) { s.convention.expansion = Expansion::exact; }},
-    {"biased", [](StatedConvention& s) { s.convention.expansion = Expansion::biased; }},
-    {"signed", [](StatedConvention& s) { s.convention.expansion = Expansion::signedValues; }},
+    {"exact", [](StatedConvention& s) { s.convention.expansion = Expansion::exact, s.expansion = true; }},
+    {"biased", [](StatedConvention& s) { s.convention.expansion = Expansion::biased, s.expansion = true; }},
+    {"signed", [](StatedConvention& s) { s.convention.expansion = Expansion::signedValues, s.expansion = true; }},
     {"xyz", setChannels<Channels::xyz>},
     {"xy", setChannels<Channels::orthographic>},
     {"orthographic", setChannels<Channels::orthographic>}, // the same
@@ -128,17 +128,6 @@ Result<StatedConvention> parsed(std::string_view text, bool withDamage)
             return unknownWord(word, withDamage);
         text.remove_prefix(std::min(word.size() + 1, text.size()));
     }
-    return stated;
-}
-
-// For conventions of output, and of maps that shaders read.
-Result<StatedConvention> undamaged(std::string_view text)
-{
-    auto stated = parsed(text, false);
-    if (stated && stated->damage.any())
-        return usageError("srgb, linearised, bgr and grb describe broken maps; expected a convention without them, "
-                          "found '"
-                          + std::string(text) + "'");
     return stated;
 }
 
@@ -195,13 +184,13 @@ std::vector<std::string> damageWords() { return wordsOf(kDamageWords); }
 
 Result<Convention> parseConvention(std::string_view text)
 {
-    const auto stated = undamaged(text);
+    const auto stated = parseWrittenConvention(text);
     return stated ? Result<Convention>(stated->convention) : stated.error();
 }
 
 Result<Convention> parseSampledConvention(std::string_view text)
 {
-    COTAN_TRY(stated, undamaged(text));
+    COTAN_TRY(stated, parseWrittenConvention(text));
     Convention convention = stated->convention;
     for (const ConventionPreset& p : kPresets)
         if (!stated->channels && p.name == text.substr(0, text.find(',')))
@@ -210,5 +199,15 @@ Result<Convention> parseSampledConvention(std::string_view text)
 }
 
 Result<StatedConvention> parseStatedConvention(std::string_view text) { return parsed(text, true); }
+
+Result<StatedConvention> parseWrittenConvention(std::string_view text)
+{
+    auto stated = parsed(text, false);
+    if (stated && stated->damage.any())
+        return usageError("srgb, linearised, bgr and grb describe broken maps; expected a convention without them, "
+                          "found '"
+                          + std::string(text) + "'");
+    return stated;
+}
 
 } // namespace cotan

@@ -1,7 +1,6 @@
 #include "codecs.hpp"
 
 #include <algorithm>
-#include <climits>
 #include <cmath>
 #include <csetjmp>
 #include <cstdlib>

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/named_values.hpp"
+#include "core/try.hpp"
 #include "maps/patches.hpp"
 
 namespace cotan::maps {
@@ -167,7 +168,7 @@ std::vector<std::string> mapFaults(const Scene& scene, bool judgeGreen)
     return sentences;
 }
 
-std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics)
+std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics, ReadAs reading)
 {
     if (faults.empty())
         return {};
@@ -177,8 +178,12 @@ std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics&
     const bool down = has(faults, Kind::greenDown);
     const char* const expansion = down && statistics.centre == Centre::biased ? ",biased" : "";
     std::string options = std::string(down ? "--from directx" : "--from gltf") + expansion;
-    if (has(faults, Kind::twoChannels) || has(faults, Kind::slopes))
-        options += has(faults, Kind::slopes) ? ",slope" : ",xy";
+    const bool asStored = reading == ReadAs::file
+        && std::ranges::any_of(faults, [](const Fault& fault) { return changesLight(fault.kind); });
+    if (has(faults, Kind::slopes) || (asStored && statistics.content == Content::slopes))
+        options += ",slope";
+    else if (has(faults, Kind::twoChannels) || (asStored && statistics.content == Content::twoChannel))
+        options += ",xy";
     for (const Kind kind : {Kind::srgb, Kind::linearised, Kind::redAndBlue, Kind::redAndGreen})
         if (has(faults, kind))
             options += std::string(",") + name(kind);
@@ -190,34 +195,43 @@ std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics&
     return options;
 }
 
-Damage damageOf(const NormalStatistics& statistics)
+Result<FoundMap> findMap(const std::string& subject, const StatedConvention& to,
+                         const std::function<Result<GreenVerdict>(const Damage&)>& look)
 {
+    using Kind = Fault::Kind;
+    COTAN_TRY(verdict, look({}));
+    const std::vector<Fault> hidden = faultsOf(verdict->statistics); // they hide the direction of green until undone
     Damage damage;
-    for (const Fault& fault : faultsOf(statistics)) {
-        if (fault.kind == Fault::Kind::srgb || fault.kind == Fault::Kind::linearised)
-            damage.curve = fault.kind == Fault::Kind::srgb ? Damage::Curve::srgb : Damage::Curve::linearised;
-        if (fault.kind == Fault::Kind::redAndBlue)
-            damage.order = Damage::Order::bgr;
-    }
-    return damage;
-}
-
-std::optional<StatedConvention> foundConvention(const GreenVerdict& verdict, const Convention& to, const Damage& undone)
-{
-    const NormalStatistics& s = verdict.statistics;
-    if (verdict.green == Green::undecidable)
-        return std::nullopt;
-    StatedConvention found;
-    found.convention = {MapKind::tangentSpace, to.expansion, Channels::xyz, verdict.green == Green::up, to.v};
+    if (has(hidden, Kind::srgb) || has(hidden, Kind::linearised))
+        damage.curve = has(hidden, Kind::srgb) ? Damage::Curve::srgb : Damage::Curve::linearised;
+    if (has(hidden, Kind::redAndBlue))
+        damage.order = Damage::Order::bgr;
+    if (damage.any())
+        verdict = look(damage);
+    if (!verdict)
+        return verdict.error();
+    const NormalStatistics& s = verdict->statistics;
+    if (verdict->green == Green::undecidable)
+        return inputError(subject + ": auto: expected a normal map whose green can be told; found: " + verdict->reason
+                          + ". Say how it is stored: opengl or directx");
+    if (verdict->swapped == Swapped::yes && damage.order == Damage::Order::rgb)
+        damage.order = Damage::Order::grb;
+    FoundMap found{Convention{MapKind::tangentSpace, to.convention.expansion, Channels::xyz,
+                              verdict->green == Green::up, to.convention.v},
+                   to.convention};
+    Convention& from = found.from.convention;
     if (s.centre != Centre::unknown)
-        found.convention.expansion = s.centre == Centre::biased ? Expansion::biased : Expansion::exact;
+        from.expansion = s.centre == Centre::biased ? Expansion::biased : Expansion::exact;
     if (s.content == Content::signedValues)
-        found.convention.expansion = Expansion::signedValues;
+        from.expansion = Expansion::signedValues;
     if (s.content == Content::twoChannel || s.content == Content::slopes)
-        found.convention.channels = s.content == Content::slopes ? Channels::slope : Channels::orthographic;
-    found.damage = undone;
-    if (verdict.swapped == Swapped::yes && undone.order == Damage::Order::rgb)
-        found.damage.order = Damage::Order::grb;
+        from.channels = s.content == Content::slopes ? Channels::slope : Channels::orthographic;
+    found.from.damage = damage;
+    if (from.expansion == Expansion::biased && !to.expansion)
+        found.to.expansion = from.expansion;
+    const std::vector<Fault> faults = faultsOf(s); // what green adds is in `from`
+    found.normalise = has(faults, Kind::tooShort) || has(faults, Kind::tooLong);
+    found.eightBits = has(faults, Kind::eightBitsIn16);
     return found;
 }
 
@@ -230,7 +244,7 @@ std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults
         text += fault.text + "; ";
     if (has(faults, Fault::Kind::height))
         return text + "cotan map from-height makes a normal map of it.";
-    const std::string fix = fixOptions(faults, statistics);
+    const std::string fix = fixOptions(faults, statistics, ReadAs::glTF);
     if (!fix.empty())
         return text + "cotan map convert " + fix + " fixes it.";
     text.resize(text.size() - 2);

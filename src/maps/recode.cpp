@@ -169,6 +169,17 @@ Result<Convention> conventionOf(const StatedConvention& stated, const std::strin
     return convention;
 }
 
+Result<Convention> makeReadable(Image& image, const StatedConvention& stated, const std::string& file,
+                                const std::string& option)
+{
+    auto convention = conventionOf(stated, file, image.channels, option);
+    if (convention && convention->channels != Channels::xyz)
+        unswizzle(image, swizzleOf(image));
+    if (convention)
+        undo(stated.damage, image);
+    return convention;
+}
+
 void undo(const Damage& damage, Image& image)
 {
     if (!damage.any())

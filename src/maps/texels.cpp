@@ -97,6 +97,14 @@ Swizzle swizzleOf(const Image& image)
     return range.swizzle();
 }
 
+bool lacksZ(const Image& image)
+{
+    ChannelRange range;
+    range.add(image);
+    return !range.grey && range.lowest.z == range.highest.z && std::lround(255 * range.lowest.z) == 128
+        && range.lowest.w == 1;
+}
+
 void unswizzle(Image& image, Swizzle from)
 {
     if (from == Swizzle::rg)

@@ -36,6 +36,9 @@ struct ChannelRange {
     Swizzle swizzle() const;
 };
 
+// Whether blue is the middle code and alpha 1 everywhere, as readers of two-channel formats leave them. Not in grey.
+bool lacksZ(const Image& image);
+
 // Moves x to red and y to green; sets blue to 0.5 and alpha to 1. Does nothing for rg.
 void unswizzle(Image& image, Swizzle from);
 

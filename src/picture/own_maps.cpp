@@ -66,12 +66,9 @@ Status applyNormalMap(const OwnMaps& maps, const LoadLimits& limits, Scene& scen
 {
     COTAN_TRY(stated, conventionOf(maps));
     COTAN_TRY(image, readFor(maps, maps.normal, &Material::normalMap, limits, scene));
-    COTAN_TRY(convention, maps::conventionOf(*stated, maps.normal, image->channels, "--convention"));
     if (!stated->channels) // x and y in three channels with constant blue: no such normals exist
         completeNormals(*image);
-    if (convention->channels != Channels::xyz)
-        maps::unswizzle(*image, maps::swizzleOf(*image));
-    maps::undo(stated->damage, *image);
+    COTAN_TRY(convention, maps::makeReadable(*image, *stated, maps.normal, "--convention"));
     if (const std::string found = maps::contradictionOf(*image, *convention); !found.empty())
         scene.warnings.push_back(
             fmt::format("{}: {}; it is read as {} (--convention)", maps.normal, found, describe(*convention)));

@@ -250,6 +250,28 @@ def test_normal_map_of_the_detailed_mesh_is_baked(command, tmp_path):
     assert caught.value.field == "high_normals"
 
 
+def test_two_channels_of_a_detailed_mesh_are_read_wherever_they_are(command, tmp_path):
+    phase = 2 * np.pi * np.arange(64) / 64
+    x, y = np.meshgrid(0.4 * np.sin(phase), 0.4 * np.cos(2 * phase))
+    codes = np.round(128 + 127 * np.dstack([x, y, np.sqrt(1 - x * x - y * y), np.ones_like(x)])).astype(np.uint8)
+    r, g, full = codes[..., 0], codes[..., 1], np.full_like(codes[..., 0], 255)
+    wanted = cotan.bake(square(), square(), size=32, high_normals="map", high_map=codes).map.astype(int)
+    files = [write_obj(tmp_path / f"{n}.obj", m) for n, m in (("low", square()), ("high", square()))]
+    for name, words, channels in (
+        ("middle blue", "opengl", (r, g, np.full_like(r, 128), full)),
+        ("rg", "opengl,xy", (r, g, full, full)),
+        ("ag", "opengl,xy", (full, g, full, r)),
+        ("grey and alpha", "opengl,xy", (r, r, r, g)),
+    ):
+        map, out = np.dstack(channels), tmp_path / "out.png"
+        cotan.write_image(tmp_path / "map.png", map)
+        made = cotan.bake(square(), square(), size=32, high_normals="map", high_map=map, high_convention=words).map
+        assert np.abs(made - wanted).max() <= 2, name  # z is rounded
+        command("bake", "--low", files[0], "--high", files[1], "--high-normals", "map", "--high-map", tmp_path / "map.png",
+                "--high-convention", words, "--size", 32, "-o", out, "--quiet")  # fmt: skip
+        assert (cotan.read_image(out) == made).all(), name
+
+
 def test_material_number_selects_triangles(command, tmp_path):
     low = write_obj(tmp_path / "low.obj", square())
     lines = low.read_text().splitlines()

@@ -90,6 +90,68 @@ def test_conversion_equals_the_command_line(files, command):
         assert (cotan.map_convert(base, source, to, bits) == cotan.read_image(out)).all(), (source, to)
 
 
+CHANNELS = {
+    "xy.png": [], "ag.png": ["--swizzle", "ag"], "ra.png": ["--swizzle", "ra"],
+    "rg.ktx2": [], "bc5.ktx2": ["--compress", "bc5"], "bc5.dds": ["--compress", "bc5"],
+}  # fmt: skip
+
+
+def damaged(kind, pixels):
+    """The map as a wrong export stores it."""
+    made = pixels.copy()
+    if kind == "srgb":
+        x = pixels[..., :3] / 255
+        made[..., :3] = np.round(255 * np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055))
+    else:
+        made[..., :3] = pixels[..., [2, 1, 0] if kind == "bgr" else [1, 0, 2]]
+    return made
+
+
+@pytest.mark.parametrize("stored, shift", [("opengl", 0), ("directx", 31)])
+def test_maps_are_read_as_by_the_command_line(stored, shift, tmp_path, command):
+    """Two channels wherever they are, and broken maps; stated and found; from files and from arrays."""
+    given = np.roll(normal_map(stored == "opengl"), shift, axis=1)
+    cotan.write_image(tmp_path / "given.png", given)
+    cases = []
+    for name, words in CHANNELS.items():
+        to = ("--to", f"{stored},xy", *words, "-o", tmp_path / name)
+        command("map", "convert", tmp_path / "given.png", "--from", stored, *to)
+        stated = [stored] if name.startswith("bc5") else []  # these files say that they have two channels
+        cases += [(name, source) for source in (*stated, f"{stored},xy", "auto")]
+    for kind in ("srgb", "bgr", "grb"):
+        cotan.write_image(tmp_path / f"{kind}.png", damaged(kind, given))
+        cases += [(f"{kind}.png", f"{stored},{kind}"), (f"{kind}.png", "auto")]
+    out = tmp_path / "out.png"
+    for name, source in cases:
+        words = ("--from", source, "--to", "unity", "--bits", 8, "-o", out, "--overwrite", "--quiet")
+        command("map", "convert", tmp_path / name, *words)
+        wanted = cotan.read_image(out)
+        for map in (tmp_path / name, cotan.read_image(tmp_path / name)):
+            assert (cotan.map_convert(map, source, "unity", bits=8) == wanted).all(), (name, source)
+        words = ("--from", source, "--to", "opengl", "--compress", "bc7", "--mips", "-o", tmp_path / "blocks.ktx2")
+        command("map", "convert", tmp_path / name, *words, "--overwrite", "--quiet")
+        made = cotan.map_texture(tmp_path / name, source, "opengl", "bc7")
+        assert made.data == (tmp_path / "blocks.ktx2").read_bytes(), (name, source)
+    with pytest.raises(cotan.InputError, match="auto: expected a normal map whose green can be told"):
+        cotan.map_convert(np.full((32, 32, 3), (128, 128, 255), np.uint8), "auto", "opengl")
+
+
+@pytest.mark.parametrize("name", CHANNELS)
+def test_two_channels_are_blended_and_filtered_as_by_the_command_line(name, files, command):
+    folder, base, _ = files
+    words = ("--from", "gltf", "--to", "gltf,xy", *CHANNELS[name], "-o", folder / name)
+    command("map", "convert", folder / "base.png", *words)
+    map, words = folder / name, ("--from", "gltf,xy", "--quiet")
+    command("map", "blend", map, map, *words, "--bits", 8, "-o", folder / "out.png")
+    assert (cotan.map_blend(map, map, "gltf,xy", bits=8) == cotan.read_image(folder / "out.png")).all()
+    command("map", "to-height", map, *words, "--bits", "float", "-o", folder / "height.exr")
+    assert (cotan.map_to_height(map, "gltf,xy") == cotan.read_image(folder / "height.exr")[..., 0]).all()
+    command("map", "mips", map, *words, "-o", folder / "level.png")
+    for number, level in enumerate(cotan.map_mips(cotan.read_image(map), "gltf,xy")):
+        assert (level.map == cotan.read_image(folder / f"level_{number}.png")).all(), number
+        assert (level.roughness == cotan.read_image(folder / f"level_roughness_{number}.png")).all(), number
+
+
 def test_green_is_reversed_between_opengl_and_directx(files):
     _, base, _ = files
     turned = cotan.map_convert(base, "opengl", "directx")

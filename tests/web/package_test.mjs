@@ -229,7 +229,14 @@ const cases = {
     // Central differences attenuate a wave of 32 texels by 0.6 %.
     back.data.forEach((h, i) => assert.ok(Math.abs(h - 2 * height(i % side, Math.floor(i / side))) < 0.04));
     assert.deepEqual(cotan.mips(map).map((level) => level.normals.width), [64, 32, 16, 8, 4, 2, 1]);
+    assert.deepEqual(cotan.mips(map)[0].roughness.data, cotan.mips(map, { roughness: 0.3 })[0].roughness.data); // as map mips
     assert.equal(cotan.info(map).content, 'tangent space');
+    // Two channels wherever they are, and exchanged ones: as stated, and found.
+    const eight = cotan.convertMap(map, { bits: 8 }), moved = (texel) => ({ ...eight, data: eight.data.map((_, i, all) => texel(all.subarray(i - i % 4, i - i % 4 + 4))[i % 4]) });
+    for (const [from, stored] of [['gltf,xy', moved(([x, y]) => [255, y, 255, x])], ['gltf,xy', moved(([x, y]) => [x, x, x, y])],
+      ['gltf', moved(([x, y]) => [x, y, 128, 255])], ['gltf,bgr', moved(([x, y, z, a]) => [z, y, x, a])]])
+      for (const words of [from, 'auto'])
+        cotan.convertMap(stored, { from: words, to: 'opengl' }).data.forEach((value, i) => assert.ok(Math.abs(value - eight.data[i]) <= 2, words));
     const flat = { width: 1, height: 1, data: Uint16Array.of(32768, 32768, 65535, 65535) };
     const same = cotan.blend(map, flat).data;
     map.data.forEach((value, i) => assert.ok(Math.abs(value - same[i]) <= 1));

@@ -49,6 +49,23 @@ await fact('fixedMapsEqualThoseOfTheCommandLine', async () => {
   return wrong.join('\n');
 }, needsData);
 
+// Maps with red and blue exchanged, and of two channels.
+await fact('brokenMapsAreFixedAsByTheCommandLine', async () => {
+  const page = await open(), wrong = [], map = decode(readFileSync(texture('scratched_gold_normal_dx.png')));
+  const changed = texel => ({ ...map, data: map.data.map((_, i, all) => texel(all.subarray(i - i % map.channels, i - i % map.channels + 3))[i % map.channels] ?? 255) });
+  for (const [name, texel] of [['red and blue.png', ([x, y, z]) => [z, y, x]], ['two channels.png', ([x, y]) => [x, y, 128]]]) {
+    writeFileSync(join(scratch, name), encode(changed(texel)));
+    await drop(page, [join(scratch, name)]);
+    const { bytes } = await saved(page, () => page.click('text=Download the fixed map'));
+    const [, named, to] = /map convert "(.*?)" --from auto --to (\S+)/.exec(await page.textContent('.result code')) ?? [];
+    if (named !== name) { wrong.push(`${name}: ${await page.textContent('#result')}`); continue; }
+    run('map', 'convert', join(scratch, name), '--from', 'auto', '--to', to, '-o', 'tool.png', '--overwrite', '--quiet');
+    if (!texelsEqual(decode(bytes), decode(readFileSync(join(scratch, 'tool.png'))))) wrong.push(`${name}: the fixed map differs from the tool's`);
+  }
+  await page.context().close();
+  return wrong.join('\n');
+}, needsData);
+
 await fact('mapsOfBasisUniversalAreRead', async () => {
   const page = await open(), wrong = [], seed = name => join(here, `../../fuzz/corpus/image/${name}.ktx2`);
   for (const name of ['uastc_map', 'etc1s', 'etc1s_alpha']) {

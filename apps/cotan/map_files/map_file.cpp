@@ -99,10 +99,7 @@ Result<LoadedMap> readMap(const std::filesystem::path& file, const StatedConvent
                           const LoadLimits& limits)
 {
     COTAN_TRY(image, readImage(file, limits));
-    COTAN_TRY(convention, conventionOf(stated, image->name, image->channels, option));
-    if (convention->channels != Channels::xyz)
-        unswizzle(*image, swizzleOf(*image));
-    undo(stated.damage, *image);
+    COTAN_TRY(convention, makeReadable(*image, stated, image->name, option));
     std::string note = noteOn(option, file.string(), contradictionOf(*image, *convention));
     return LoadedMap{*std::move(image), *convention, std::move(note)};
 }

@@ -93,7 +93,7 @@ export function mapFunctions(library, host) {
     }),
 
     mips: (map, given) => library.run((s) => {
-      const o = options(given, { convention: 'gltf,exact', roughness: 0 });
+      const o = options(given, { convention: 'gltf,exact', roughness: 0.3 });
       const levels = [], takeLevel = (level, normals, roughness) => {
         levels.push({ normals: imageAt(s, normals), roughness: imageAt(s, roughness) });
       };

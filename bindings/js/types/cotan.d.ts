@@ -42,7 +42,9 @@ export function info(map: Image): {
   mean: [number, number, number];
 };
 
-/** Converts a map from one convention to another. Default of bits: those of the map. */
+/** Converts a map from one convention to another. from: default "gltf,exact"; with the words for broken maps ("gltf,srgb")
+ * the map is repaired; "auto" finds the convention, and repairs the map, as `cotan map convert` does, or throws a
+ * CotanError with code `input` if green cannot be told. Default of bits: those of the map. */
 export function convertMap(map: Image, options?: { from?: Convention; to?: Convention; bits?: Bits }): Image;
 
 export function blend(base: Image, detail: Image, options?: {
@@ -59,7 +61,8 @@ export function fromHeight(height: Image, options?: { scale?: number | [number, 
 /** The height map, in texel widths and with mean 0, whose slopes are nearest to those of the normal map. */
 export function toHeight(map: Image, options?: { from?: Convention }): { width: number; height: number; data: Float32Array };
 
-/** Mip levels, filtered as vectors, with the roughness that compensates for the lost variance of normals. */
+/** Mip levels, filtered as vectors, with the roughness that compensates for the lost variance of normals. roughness: of the
+ * material, 0 to 1; default: 0.3. */
 export function mips(map: Image, options?: { convention?: Convention; roughness?: number }): { normals: Image; roughness: Image }[];
 
 // ---- frames

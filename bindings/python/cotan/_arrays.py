@@ -114,7 +114,7 @@ def stored(array, words, field):
     words = os.fsdecode(words).split(",") if isinstance(words, (str, bytes)) else []
     if array.dtype != np.float32 or "slope" in words:
         return
-    low = -1.0 if "signed" in words else 0.0
+    low = -1.0 if "signed" in words or words == ["auto"] else 0.0
     for found in (float(array[..., :3].min()), float(array[..., :3].max())):
         if not low - _SLACK <= found <= 1 + _SLACK:
             raise wrong(field, f"floats from {low:g} to 1 as {','.join(words)} stores them", f"{found:g}", InputError)

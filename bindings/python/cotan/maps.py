@@ -2,7 +2,8 @@
 
 An image is an array (height, width, 4) of uint8, uint16 or float32: red, green, blue, alpha, rows from the top. Images
 with three channels or one are also accepted and copied to four channels, and so are paths of image files. A convention
-is a list of words: "gltf", "directx", "unity,xy".
+is a list of words: "gltf", "directx", "unity,xy". Two channels are found wherever they are; a map whose blue is the
+middle code everywhere, as readers of two channels leave it, has two.
 
 The number that stands for zero depends on the dtype: 128 in uint8, 32768 in uint16, and **0.5 in float32**, where 0 and
 1 stand for -1 and 1. With "signed" in the convention, floats stand for themselves; with "biased", zero is 127.5 and
@@ -142,11 +143,12 @@ def map_convert(
 
     Args:
         map: an image; in float32 0.5 stands for zero, which is not 128 / 255.
-        source, to: conventions: "directx", "gltf", ...; both in tangent space or both in object space.
+        source, to: conventions: "directx", "gltf", ...; both in tangent space or both in object space. source may have
+            the words for broken maps, "gltf,srgb", or be "auto": what `detect` finds, and repaired.
         bits: bit depth of the result: 8, 16 or 32. Default: that of the map.
         out: an image of the map's size to write into.
 
-    Raises InputError for NaN and for floats outside the range of `source`.
+    Raises InputError for NaN, for floats outside the range of `source`, and if "auto" cannot tell green.
     """
     pixels = pixels_of(map)
     arrays.stored(pixels, source, "map")
@@ -217,7 +219,7 @@ def map_blend(
     return out
 
 
-def map_mips(map: Map, convention: Convention = "gltf,exact", roughness: float = 0.5) -> list[Level]:
+def map_mips(map: Map, convention: Convention = "gltf,exact", roughness: float = 0.3) -> list[Level]:
     """Mip levels, filtered as vectors: the map's own size first, 1 x 1 last.
 
     roughness: roughness of the material, 0 to 1.
@@ -261,7 +263,7 @@ def map_texture(
 
     Args:
         map: an image.
-        source, to: conventions of the map and of the texture. Default of to: source.
+        source, to: conventions of the map, as for `map_convert`, and of the texture. Default of to: source.
         compress: the format of the blocks; "none" stores pixels of 8 bits.
         swizzle: where a map of two channels has x and y; "auto": where engines expect them.
         container: "ktx2" or "dds", which has BC formats and pixels only.

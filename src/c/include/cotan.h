@@ -231,7 +231,10 @@ typedef struct cotan_map_info {
 } cotan_map_info;
 cotan_status cotan_map_describe(const cotan_image_view* map, cotan_map_info* info, char* message, size_t message_size);
 
-/* Converts a map to another convention. `to_map` has the size of `map` and the requested bits. */
+/* Converts a map to another convention. from: words; those for broken maps (srgb, linearised, bgr, grb) are repaired;
+ * "auto" finds it and repairs the map, as `cotan map convert` does (COTAN_INPUT: green cannot be told). Two channels
+ * are found wherever they are, here and in the functions below; a map without z (blue is the middle code everywhere, as
+ * readers of two channels leave it) has two. `to_map` has the size of `map` and the requested bits. */
 cotan_status cotan_map_convert(const cotan_image_view* map, const char* from, const char* to, cotan_image_view* to_map,
                                char* message, size_t message_size);
 
@@ -260,7 +263,7 @@ cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention,
 
 typedef struct cotan_texture_options {
     size_t size;
-    const char* from;      /* convention of the map; null: "gltf,exact" */
+    const char* from;      /* convention of the map, as for cotan_map_convert; null: "gltf,exact" */
     const char* to;        /* convention of the texture; null: as `from`. Formats of two channels hold its x and y */
     const char* compress;  /* as --compress of `cotan map convert`: "bc5", "uastc", "astc-6x6", ...; null: "none" */
     const char* swizzle;   /* as --swizzle: where two channels are; null: "auto" */
@@ -277,9 +280,8 @@ typedef struct cotan_texture_result {
     double mean_degrees, percentile99_degrees; /* 99 % of the texels are within the second */
 } cotan_texture_result;
 
-/* Makes the file that `cotan map convert` writes with the same words (and --mips), byte for byte. Two channels of the
- * map may be anywhere: they are found. result may be null. The caller frees the bytes. COTAN_UNAVAILABLE: this build
- * has no encoder (ASTC). Since version 9. */
+/* Makes the file that `cotan map convert` writes with the same words (and --mips), byte for byte. result may be null.
+ * The caller frees the bytes. COTAN_UNAVAILABLE: this build has no encoder (ASTC). Since version 9. */
 cotan_status cotan_map_texture(const cotan_image_view* map, const cotan_texture_options* options,
                                cotan_texture_result* result, cotan_bytes** texture, char* message, size_t message_size);
 

@@ -1,7 +1,6 @@
 #include "maps/blocks/block.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 

@@ -4,7 +4,6 @@
 // lines in two parts of the block (2, 4).
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <cstring>
 #include <string_view>
-#include <utility>
 
 #include "image/checks.hpp"
 #include "image/codecs.hpp"

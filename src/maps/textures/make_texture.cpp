@@ -25,14 +25,13 @@ Result<MadeTexture> makeTexture(Image map, const TextureSettings& s)
     COTAN_TRY(code, codeFor(s.compress, "auto", s.to, s.file, s.swizzle));
     if ((s.from.kind == MapKind::objectSpace) != (s.to.kind == MapKind::objectSpace))
         return about("options.to", usageError("expected a map of the same space; object space needs the mesh"));
-    if (s.from.channels != Channels::xyz)
-        unswizzle(map, swizzleOf(map));
     const Convention taken = codeConvention(*code, s.to);
     TextureRows texture(map.width, map.height, *code, taken, s);
     for (int y = 0, atOnce = rowsAtOnce(map.width); y < map.height; y += atOnce) {
         const Image rows = rowsOf(map, y, std::min(atOnce, map.height - y));
         RecodeCounts counts;
-        COTAN_CHECK(texture.add(recode(rows, {.from = s.from, .to = taken, .type = typeOf(*code)}, counts), &rows));
+        const RecodeSettings settings{.from = s.from, .to = taken, .type = typeOf(*code), .normalise = s.normalise};
+        COTAN_CHECK(texture.add(recode(rows, settings, counts), &rows));
     }
     return texture.finish(map.frame);
 }

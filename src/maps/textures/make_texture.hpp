@@ -16,7 +16,7 @@ struct TextureSettings {
     Convention from{}, to{}; // of the map and of the texture
     std::string compress = "none", swizzle = "auto";
     std::filesystem::path file = "map.ktx2"; // its extension is the container
-    bool mips = true;
+    bool mips = true, normalise = false;     // all levels; unit vectors, as RecodeSettings
 };
 
 struct MadeTexture {
@@ -26,8 +26,8 @@ struct MadeTexture {
     std::optional<TextureCost> cost{}; // of the largest level; none if this build cannot decode the format
 };
 
-// Makes the file that `map convert --compress` writes. Two channels of the map are found as swizzleOf finds them.
-// Image::frame is stored by KTX2. Errors: as codeFor and levelOf.
+// Makes the file that `map convert --compress` writes, of a map after makeReadable. Image::frame is stored by KTX2.
+// Errors: as codeFor and levelOf.
 Result<MadeTexture> makeTexture(Image map, const TextureSettings& settings);
 
 // Rows of a map of this width to be encoded at a time, a multiple of the heights of all blocks.

@@ -115,8 +115,9 @@ struct Damage {
 // them.
 struct StatedConvention {
     Convention convention{};
-    bool channels = false; // stated by a word of their own, so a file that stores others contradicts them
-    Damage damage{};       // from the words srgb, linearised, bgr and grb
+    bool channels = false;  // stated by a word of their own, so a file that stores others contradicts them
+    bool expansion = false; // stated by exact, biased or signed
+    Damage damage{};        // from the words srgb, linearised, bgr and grb
 
     StatedConvention() = default;
     StatedConvention(const Convention& c, bool said = false) : convention(c), channels(said) {}
@@ -125,6 +126,9 @@ struct StatedConvention {
 // Like parseConvention; also returns whether a word stated the channels (xyz, xy and so on, or object). Accepts the
 // words of damageWords, too, which the other functions refuse because no map should be written that way.
 Result<StatedConvention> parseStatedConvention(std::string_view text);
+
+// The same for maps that are written, which have no damage.
+Result<StatedConvention> parseWrittenConvention(std::string_view text);
 
 // The words of Damage, for help and completion: srgb, linearised, bgr, grb.
 std::vector<std::string> damageWords();

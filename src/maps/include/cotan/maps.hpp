@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -202,18 +203,24 @@ std::string noteOf(const NormalStatistics& statistics);
 std::vector<std::string> mapFaults(const Scene& scene, bool judgeGreen = false);
 
 // The options of `cotan map convert` that fix all faults, such as "--from directx,srgb --to opengl"; empty without
-// faults. A map whose zero is 127.5 keeps it: negating green about 128 would tilt it by 0.45 degrees.
-std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics);
+// faults. A map whose zero is 127.5 keeps it: negating green about 128 would tilt it by 0.45 degrees. A file of two
+// channels is read as such; as glTF reads it only if that is one of the faults.
+enum class ReadAs { file, glTF };
+std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics,
+                       ReadAs reading = ReadAs::file);
 
-// The damage that the statistics reveal, which hides the direction of green until it is undone: a curve, or red and
-// blue exchanged.
-Damage damageOf(const NormalStatistics& statistics);
+// What the word `auto` in place of a convention means: how a map is stored, and what repairs it. The v of `from` is
+// that of `to`; so is its zero where none can be told.
+struct FoundMap {
+    StatedConvention from{};
+    Convention to{};                           // as requested, but a zero of 127.5 stays unless a word states another
+    bool normalise = false, eightBits = false; // see RecodeSettings; all 16-bit components have 8-bit values
+};
 
-// How a map is stored, as its verdict says, after `undone` was undone. Nothing if green is undecidable. Its v is that
-// of `to`, which the map will be converted to; where the zero cannot be told it is that of `to` as well, so that no
-// value moves.
-std::optional<StatedConvention> foundConvention(const GreenVerdict& verdict, const Convention& to,
-                                                const Damage& undone = {});
+// subject: begins the message. look: gives the verdict on the map after a damage is undone; called once or twice.
+// Errors: those of `look`; ErrorKind::input: green is undecidable.
+Result<FoundMap> findMap(const std::string& subject, const StatedConvention& to,
+                         const std::function<Result<GreenVerdict>(const Damage&)>& look);
 
 // "NAME: FAULT; FAULT; cotan map convert OPTIONS fixes it."; without the command if none fixes it; empty without
 // faults.
@@ -234,6 +241,11 @@ std::string contradictionOf(const Image& map, const Convention& stated); // judg
 // Errors: ErrorKind::usage, starting with `option`: three channels are stated, and the file has two; ErrorKind::input:
 // the file has one.
 Result<Convention> conventionOf(const StatedConvention& stated, const std::string& file, int channels,
+                                const std::string& option);
+
+// Makes an image readable by what conventionOf returns, which it returns: moves x and y of two channels to red and
+// green, wherever they are, and undoes the damage. Errors: those of conventionOf.
+Result<Convention> makeReadable(Image& image, const StatedConvention& stated, const std::string& file,
                                 const std::string& option);
 
 // Undoes damage: first the transfer curve on red, green and blue, then their order. The pixel type stays. unorm values
