@@ -56,15 +56,15 @@ std::vector<TriedFormat> costsOf(const Image& map, const Convention& convention)
 
 // What the file of a map has cost it already.
 struct CostBefore {
-    std::string format; // a word of --compress, or "jpeg"
+    std::string format; // Image::blocks, or "jpeg"
     double meanDegrees = 0;
 };
 
 // Estimates that. A JPEG file, if it is in Image::jpeg: see jpegCost. Blocks: what they cost what they hold, on a grid
 // that is half a block away, where none of the lines and planes fits that the blocks were fitted to. map: as decoded
 // from the file, read in `convention`; Image::blocks names the format. Large maps are sampled as by costsOf.
-// Nothing for pixels, a map smaller than 32 x 32, formats that this build cannot write, and BC3, whose few codes hide
-// what was rounded to them.
+// Nothing for pixels, a map smaller than 32 x 32, formats that this build cannot write but bc1, etc2 and etc1s, and
+// BC3 with x in alpha, whose few codes of green hide what was rounded to them.
 std::optional<CostBefore> costBefore(const Image& map, const Convention& convention);
 
 } // namespace cotan::app

@@ -56,7 +56,7 @@ struct Image {
     // Number of channels in the file: 1 grey, 2 (KTX2 and DDS: red and green; others: grey and alpha), 3 or 4. 4 if
     // unknown.
     int channels = 4;
-    // The word of --compress for the blocks that the file holds. Empty: pixels, or blocks that no word names.
+    // The word of --compress for the blocks that the file holds, bc1, etc2 or etc1s. Empty: pixels, or other blocks.
     std::string blocks = {};
     std::vector<std::byte> jpeg = {}; // the file, if it is a JPEG and LoadLimits::keepsJpeg is set
 
