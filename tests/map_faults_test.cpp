@@ -264,6 +264,11 @@ TEST(MapFaults, autoReadsMapsInEveryCommandAsTheirStatedConventionDoes)
     const ToolRun run = runTool({"map", "diff", "up.png", "down.png", "--from", "auto"}, folder.path());
     EXPECT_NE(run.out.find("up.png: green: up"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("down.png: green: down"), std::string::npos) << run.out;
+    for (const char* command : {"convert", "mips"})
+        EXPECT_NE(runTool({"map", command, "up.png", "--from", "wrong", "--to", "gltf", "-o", "o.png"}, folder.path())
+                      .err.find("--from: expected auto, or gltf "),
+                  std::string::npos)
+            << command;
 }
 
 // Maps of two channels, wherever these are, with green up and down: the command that detect prints for a map, and auto,

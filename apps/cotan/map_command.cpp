@@ -60,9 +60,12 @@ Result<maps::FoundMap> sourceOf(const MapOptions& o, const std::string& text, co
                                 const std::string& file, const StatedConvention& to)
 {
     if (text != kFound) {
-        const auto stated = parseStatedConvention(text);
-        return stated ? Result<maps::FoundMap>(maps::FoundMap{.from = *stated, .to = to.convention})
-                      : usageError(fmt::format("{}: {}, or: {}", option, stated.error().message, kFound));
+        const auto stated = parseConvention(text, option);
+        if (stated)
+            return maps::FoundMap{.from = *stated, .to = to.convention};
+        std::string why = stated.error().message; // "--from: expected gltf ..."
+        why.insert(why.find("expected ") + 9, fmt::format("{}, or ", kFound));
+        return usageError(why);
     }
     GreenOfFile seen;
     const auto look = [&](const Damage& damage) -> Result<maps::GreenVerdict> {
