@@ -8,7 +8,7 @@ import sys
 ROOT = pathlib.Path(sys.argv[1])
 SRC = ROOT / "src"
 MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS = 13, 56, 30
-MOST_LINES = {"src": 63_300, "apps": 30_900}  # of C++; a commit that raises one says why
+MOST_LINES = {"src": 63_320, "apps": 30_900}  # of C++; a commit that raises one says why
 WITHOUT_HEADER = {"c"}  # its header is cotan.h
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.M)
 

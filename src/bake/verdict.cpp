@@ -203,7 +203,11 @@ Marks beyondParts(const LowSurface& low, const Baker& baker, const std::vector<s
 
 BakeProblem problemOf(BakeProblem::Kind kind, const Areas& areas, std::size_t texelsOfMark = 1, int step = 1)
 {
-    return {kind, areas.marks * texelsOfMark, areas.degrees, areas.at * step + step / 2, {}};
+    return {.kind = kind,
+            .texels = areas.marks * texelsOfMark,
+            .degrees = areas.degrees,
+            .at = areas.at * step + step / 2,
+            .text = {}};
 }
 
 // What happened, and what helps.

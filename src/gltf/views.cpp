@@ -31,12 +31,12 @@ ElementType elementTypeOf(std::string_view name)
 Sparse readSparse(const Json& sparse)
 {
     const Json &indices = sparse["indices"], &values = sparse["values"];
-    return {sparse["count"].get<std::size_t>(),
-            indexOf(indices, "bufferView"),
-            indexOf(values, "bufferView"),
-            valueOr(indices, "byteOffset", std::size_t(0)),
-            valueOr(values, "byteOffset", std::size_t(0)),
-            indices["componentType"].get<int>()};
+    return {.count = sparse["count"].get<std::size_t>(),
+            .indicesView = indexOf(indices, "bufferView"),
+            .valuesView = indexOf(values, "bufferView"),
+            .indicesOffset = valueOr(indices, "byteOffset", std::size_t(0)),
+            .valuesOffset = valueOr(values, "byteOffset", std::size_t(0)),
+            .indicesType = indices["componentType"].get<int>()};
 }
 
 // KHR_texture_transform: scale, rotate, then translate. The rotation is counter-clockwise as seen in the image, whose v
@@ -129,13 +129,13 @@ BufferView readBufferView(const Json& view)
 
 Accessor readAccessor(const Json& accessor)
 {
-    Accessor read{indexOf(accessor, "bufferView"),
-                  valueOr(accessor, "byteOffset", std::size_t(0)),
-                  accessor["componentType"].get<int>(),
-                  accessor["count"].get<std::size_t>(),
-                  elementTypeOf(accessor["type"].get_ref<const std::string&>()),
-                  valueOr(accessor, "normalized", false),
-                  {}};
+    Accessor read{.view = indexOf(accessor, "bufferView"),
+                  .offset = valueOr(accessor, "byteOffset", std::size_t(0)),
+                  .componentType = accessor["componentType"].get<int>(),
+                  .count = accessor["count"].get<std::size_t>(),
+                  .type = elementTypeOf(accessor["type"].get_ref<const std::string&>()),
+                  .normalized = valueOr(accessor, "normalized", false),
+                  .sparse = {}};
     if (const Json* const sparse = member(accessor, "sparse"))
         read.sparse = readSparse(*sparse);
     return read;
@@ -151,12 +151,12 @@ int accessorOf(const Attributes& attributes, std::string_view name)
 
 Primitive readPrimitive(const Json& primitive)
 {
-    return {primitive["attributes"].get<Attributes>(),
-            listOf<Attributes>(primitive, "targets"),
-            indexOf(primitive, "indices"),
-            indexOf(primitive, "material"),
-            valueOr(primitive, "mode", kTriangles),
-            frameText(primitive)};
+    return {.attributes = primitive["attributes"].get<Attributes>(),
+            .targets = listOf<Attributes>(primitive, "targets"),
+            .indices = indexOf(primitive, "indices"),
+            .material = indexOf(primitive, "material"),
+            .mode = valueOr(primitive, "mode", kTriangles),
+            .frame = frameText(primitive)};
 }
 
 Mesh readMesh(const Json& mesh)

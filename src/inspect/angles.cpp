@@ -149,8 +149,14 @@ AngleStatistics AngleCounter::statistics()
     if (values_.count() == 0)
         return {};
     const double n = double(values_.count());
-    return {values_.count(),          values_.mean(),    values_.percentile(0.5), values_.percentile(0.95),
-            values_.percentile(0.99), values_.maximum(), double(over1_) / n,      double(over5_) / n};
+    return {.count = values_.count(),
+            .mean = values_.mean(),
+            .median = values_.percentile(0.5),
+            .percentile95 = values_.percentile(0.95),
+            .percentile99 = values_.percentile(0.99),
+            .maximum = values_.maximum(),
+            .over1 = double(over1_) / n,
+            .over5 = double(over5_) / n};
 }
 
 AngleStatistics angleStatistics(const std::vector<float>& degrees)

@@ -147,9 +147,17 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
     job.name = imageName(root, image);
     if (std::ranges::find(job.slots, slot) == job.slots.end())
         job.slots.push_back(slot);
-    const double strength = strengthOf(root["materials"][slot.material], map, slot.kind);
-    job.readers.push_back({m, p, slot, strength, sampler.wrapU, sampler.wrapV, transforms, mesh->vertexCount(),
-                           mesh->triangleCount(), !mesh->tangents.empty(), storedGreen(*mesh, mesh->texcoords[0])});
+    job.readers.push_back({.mesh = m,
+                           .primitive = p,
+                           .slot = slot,
+                           .strength = strengthOf(root["materials"][slot.material], map, slot.kind),
+                           .wrapU = sampler.wrapU,
+                           .wrapV = sampler.wrapV,
+                           .transforms = transforms,
+                           .vertices = mesh->vertexCount(),
+                           .triangles = mesh->triangleCount(),
+                           .stored = !mesh->tangents.empty(),
+                           .green = storedGreen(*mesh, mesh->texcoords[0])});
     return Done{};
 }
 

@@ -26,16 +26,24 @@ void checkPrimitive(const PrimitiveLint& p, const std::string& where, double mod
     const auto over = [&](const char* kind, double value, double limit, const std::string& what, const char* unit) {
         const bool fails = limit >= 0 && value > limit;
         if (fails)
-            check.failures.push_back({kind, where, value, limit,
-                                      fmt::format("{}: {} {:.3g} {}, limit {:.3g}", where, what, value, unit, limit),
-                                      p.mesh, p.material,
-                                      /*map*/ {}, unit == percent});
+            check.failures.push_back(
+                {.kind = kind,
+                 .where = where,
+                 .value = value,
+                 .limit = limit,
+                 .text = fmt::format("{}: {} {:.3g} {}, limit {:.3g}", where, what, value, unit, limit),
+                 .mesh = p.mesh,
+                 .material = p.material,
+                 .percent = unit == percent});
         return fails;
     };
     const double degrees = check.limits.degrees, area = check.limits.area;
     if (degrees >= 0 && p.unread)
-        check.failures.push_back(
-            {"not_judged", where, 0, -1, fmt::format("{}: not judged, {}", where, p.notJudged), p.mesh, p.material});
+        check.failures.push_back({.kind = "not_judged",
+                                  .where = where,
+                                  .text = fmt::format("{}: not judged, {}", where, p.notJudged),
+                                  .mesh = p.mesh,
+                                  .material = p.material});
     for (const Reading& r : p.readings)
         if (r.name == check.limits.frame
             && over("reading", r.error.percentile95, degrees, "95th percentile of the error with " + r.name, "degrees"))
