@@ -128,6 +128,8 @@ def test_maps_are_read_as_by_the_command_line(stored, shift, tmp_path, command):
         wanted = cotan.read_image(out)
         for map in (tmp_path / name, cotan.read_image(tmp_path / name)):
             assert (cotan.map_convert(map, source, "unity", bits=8) == wanted).all(), (name, source)
+        if source != "auto":
+            continue
         words = ("--from", source, "--to", "opengl", "--compress", "bc7", "--mips", "-o", tmp_path / "blocks.ktx2")
         command("map", "convert", tmp_path / name, *words, "--overwrite", "--quiet")
         made = cotan.map_texture(tmp_path / name, source, "opengl", "bc7")
