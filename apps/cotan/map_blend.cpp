@@ -104,7 +104,7 @@ void declare(Arguments& a, MapBlendCommandOptions& o)
     addSource(a, "--from", o.from, "how the base is stored");
     a.option("--detail-from", o.detailFrom, "how the detail is stored; the same words as for the base if not given")
         .in("WORDS")
-        .offers(conventionWordList());
+        .offers(sourceWords());
     a.option("--to", o.to, "how to store the blend; as the base if not given")
         .in("WORDS")
         .offers(conventionWordList())

@@ -80,21 +80,25 @@ Result<maps::FoundMap> sourceOf(const MapOptions& o, const std::string& text, co
     return *found;
 }
 
+std::vector<std::string> sourceWords()
+{
+    std::vector<std::string> words = conventionWordList(), damages = damageWords();
+    words.insert(words.begin(), kFound);
+    words.insert(words.end(), damages.begin(), damages.end());
+    return words;
+}
+
 Argument addSource(Arguments& command, const std::string& option, std::string& text, const std::string& about)
 {
-    std::vector<std::string> words = conventionWordList();
-    words.insert(words.begin(), kFound);
     std::string damages;
-    for (const std::string& word : damageWords()) {
-        words.push_back(word);
+    for (const std::string& word : damageWords())
         damages += ' ' + word;
-    }
     return command
         .option(option, text,
                 about + ": auto, which finds it as map detect does; or " + conventionWords()
                     + "; and for broken maps, which are repaired:" + damages)
         .in("WORDS")
-        .offers(words);
+        .offers(sourceWords());
 }
 
 Result<StatedConvention> parseWrittenConvention(const std::string& text, const std::string& option)

@@ -1,12 +1,7 @@
 // `cotan map convert`: converts a map to another convention.
-#include <algorithm>
-
-#include <fmt/format.h>
-
 #include "core/try.hpp"
 #include "image/format_table.hpp"
 #include "map_files/convert.hpp"
-#include "map_files/inspect.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"
 

@@ -50,9 +50,7 @@ void declare(Arguments& a, MapDiffCommandOptions& o)
     a.option("A", o.a, "the first map").required().reads();
     a.option("B", o.b, "the second, of the same size").required().reads();
     addSource(a, "--from", o.from, "how A is stored");
-    a.option("--to", o.to, "how B is stored; the same words as for A if not given")
-        .in("WORDS")
-        .offers(conventionWordList());
+    a.option("--to", o.to, "how B is stored; the same words as for A if not given").in("WORDS").offers(sourceWords());
     a.option("--mask", o.mask, "image of the same size, whose black texels are left out, such as that of bake --mask")
         .in("FILE")
         .reads();

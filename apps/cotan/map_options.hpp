@@ -34,6 +34,9 @@ inline constexpr const char* kFound = "auto";
 Result<maps::FoundMap> sourceOf(const MapOptions& options, const std::string& text, const std::string& option,
                                 const std::string& file, const StatedConvention& to = {});
 
+// The words of such options, for completion.
+std::vector<std::string> sourceWords();
+
 // Declares such an option. about: what it tells, as in "how the map is stored".
 Argument addSource(Arguments& command, const std::string& option, std::string& text, const std::string& about);
 

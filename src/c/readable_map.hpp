@@ -26,6 +26,8 @@ inline ReadableMap readableMap(const cotan_image_view* given, const char* name, 
         written = valueOf(parseWrittenConvention(to), toName);
     if (finds) {
         const auto look = [&](const Damage& damage) -> Result<maps::GreenVerdict> {
+            if (!damage.any())
+                return maps::greenOf(map.image);
             Image undone = map.image;
             maps::undo(damage, undone);
             return maps::greenOf(undone);
